@@ -1,0 +1,342 @@
+//! From likelihoods to one of three outcomes: execute, ask or repeat (the paper, Decision over the
+//! actions for interaction mode; METHOD, section 4).
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use crate::category::{Category, CategorySet};
+use crate::feasibility::alignment;
+use crate::intent::{Intent, Parameter};
+use crate::judgement::{Judgement, has};
+use crate::profile::{Profile, SeveralClear, Threshold};
+use crate::scene::Scene;
+use crate::sentence::ABSENT_BELOW;
+use crate::trace::{CategoryTrace, Trace};
+use crate::vocabulary::Vocabulary;
+
+/// A thing meets a requirement when its alignment is at least this: the middle of likelihoods.
+pub const FEASIBLE: f32 = 0.5;
+
+/// How many options a question names at most; people do not keep more in mind.
+pub const CANDIDATES: usize = 4;
+
+/// Why something is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Reason {
+    /// More than one option is clear.
+    SeveralClear,
+    /// No option is clear.
+    NoneClear,
+    /// The best option hardly leads the next.
+    TooClose,
+    /// Nothing was said or shown of this category.
+    Missing,
+    /// What was meant is not in the scene.
+    NotInScene,
+    /// What was meant does not meet the action's requirements.
+    Infeasible,
+    /// Nothing that was said fits together well enough to act upon.
+    Doubtful,
+}
+
+/// A question about one category.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// What is asked for.
+    pub category: Category,
+    /// Why.
+    pub reason: Reason,
+    /// The options in question, most likely first; empty when it is open.
+    pub candidates: Vec<u8, CANDIDATES>,
+}
+
+/// What to do now.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Outcome<const C: usize> {
+    /// Do this.
+    Execute(Intent<C>),
+    /// Ask this first.
+    Ask(Question),
+    /// Nothing was understood: ask for a repetition.
+    Repeat,
+}
+
+/// What to do now, and the likeliest intent whatever its clarity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision<const C: usize> {
+    /// What to do now.
+    pub outcome: Outcome<C>,
+    /// The likeliest action with its likeliest parameters; `None` when no action was expressed.
+    pub best: Option<Intent<C>>,
+}
+
+/// The outcome of a filled trace.
+pub fn decide<const N: usize, const C: usize, const F: usize, const E: usize>(
+    vocabulary: &Vocabulary<N, C, F>,
+    scene: &Scene<E, F>,
+    profile: &Profile,
+    trace: &Trace<C, N>,
+) -> Decision<C> {
+    let room = Room {
+        vocabulary,
+        scene,
+        profile,
+        trace,
+    };
+    let best = room
+        .action()
+        .judgement
+        .best
+        .map(|action| room.intent(action));
+    let outcome = match &best {
+        None => room.without_action(),
+        Some(intent) => match room.doubt(intent) {
+            Doubt::None => Outcome::Execute(intent.clone()),
+            Doubt::Ask(question) => Outcome::Ask(question),
+            Doubt::Everything => Outcome::Repeat,
+        },
+    };
+    Decision { outcome, best }
+}
+
+/// What speaks against executing an intent.
+enum Doubt {
+    None,
+    Ask(Question),
+    Everything,
+}
+
+/// All that a decision looks at.
+struct Room<'a, const N: usize, const C: usize, const F: usize, const E: usize> {
+    vocabulary: &'a Vocabulary<N, C, F>,
+    scene: &'a Scene<E, F>,
+    profile: &'a Profile,
+    trace: &'a Trace<C, N>,
+}
+
+impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N, C, F, E> {
+    fn word(&self, category: usize) -> Option<&CategoryTrace<N>> {
+        self.trace.categories().get(category)
+    }
+
+    fn action(&self) -> &CategoryTrace<N> {
+        const { assert!(C > 0, "the action is a category") };
+        let [first, ..] = self.trace.categories() else {
+            return &CategoryTrace::NONE;
+        };
+        first
+    }
+
+    fn compulsory(&self, action: u8) -> CategorySet {
+        self.vocabulary
+            .actions()
+            .get(usize::from(action))
+            .map_or(CategorySet::EMPTY, |a| a.signature.compulsory)
+    }
+
+    /// The action with the best option of every category of its signature that was expressed.
+    fn intent(&self, action: u8) -> Intent<C> {
+        let mut intent = Intent {
+            action,
+            parameters: Vec::new(),
+        };
+        let Some(known) = self.vocabulary.actions().get(usize::from(action)) else {
+            return intent;
+        };
+        for q in known
+            .signature
+            .compulsory
+            .union(known.signature.voluntary)
+            .iter()
+        {
+            let (Some(word), Some(category)) = (self.word(q), Category::from_index(q)) else {
+                continue;
+            };
+            if let Some(option) = word.judgement.best {
+                let quantity = word.quantity;
+                // At most one parameter per category, and there are C categories.
+                let _ = intent.parameters.push(Parameter {
+                    category,
+                    option,
+                    quantity,
+                });
+            }
+        }
+        intent
+    }
+
+    /// No action word: with parameters the action is asked for, without anything a repetition.
+    fn without_action(&self) -> Outcome<C> {
+        if self
+            .trace
+            .categories()
+            .iter()
+            .all(|word| word.judgement.best.is_none())
+        {
+            return Outcome::Repeat;
+        }
+        Outcome::Ask(Question {
+            category: Category::ACTION,
+            reason: Reason::Missing,
+            candidates: Vec::new(),
+        })
+    }
+
+    fn doubt(&self, intent: &Intent<C>) -> Doubt {
+        let word = self.action();
+        let judgement = &word.judgement;
+        let heard_best = crate::math::argmax(
+            self.trace
+                .heard
+                .get(..usize::from(word.options))
+                .unwrap_or(&[]),
+        );
+        let heard = heard_best
+            .and_then(|i| self.trace.heard.get(i))
+            .copied()
+            .unwrap_or(0.0);
+        let left = self.left(intent.action);
+        if self.profile.guarded && left <= heard * ABSENT_BELOW {
+            return self
+                .why_not(heard_best)
+                .map_or(Doubt::Everything, Doubt::Ask);
+        }
+        if judgement.clear == 0 && judgement.unclear == 0 {
+            return Doubt::Everything;
+        }
+        let asked = |reason| Doubt::Ask(self.question(Category::ACTION, reason));
+        if judgement.clear == 0 {
+            return asked(Reason::NoneClear);
+        }
+        let several = judgement.clear.count_ones() > 1
+            && self.profile.several_clear == SeveralClear::Ask
+            && self.profile.threshold != Threshold::None;
+        if several {
+            return asked(Reason::SeveralClear);
+        }
+        if judgement.lead <= self.profile.lead {
+            return asked(Reason::TooClose);
+        }
+        if let Some(question) = self.parameter_doubt(intent) {
+            return Doubt::Ask(question);
+        }
+        // A flat action word gives every action 1 / n; one left with less than half of that by the
+        // penalties stands out only because the others are worse.
+        let flat = 1.0 / f32::from(word.options.max(1));
+        if self.profile.guarded && self.profile.threshold.is_relative() && left < 0.5 * flat {
+            let question = self.why_not(heard_best);
+            return question.map_or_else(|| asked(Reason::Doubtful), Doubt::Ask);
+        }
+        Doubt::None
+    }
+
+    /// What the penalties left of an action's merged likelihood.
+    fn left(&self, action: u8) -> f32 {
+        let at = usize::from(action);
+        let factor = |v: &[f32; N]| v.get(at).copied().unwrap_or(0.0);
+        factor(&self.trace.heard) * factor(&self.trace.alpha) * factor(&self.trace.beta)
+    }
+
+    /// What speaks against an intent's parameters.
+    fn parameter_doubt(&self, intent: &Intent<C>) -> Option<Question> {
+        for q in self.compulsory(intent.action).iter() {
+            let category = Category::from_index(q)?;
+            let word = self.word(q)?;
+            let Some(best) = word.judgement.best else {
+                return Some(self.about(intent.action, category, Reason::Missing));
+            };
+            if word.judgement.clear == 0 {
+                return Some(self.question(category, Reason::NoneClear));
+            }
+            if word.judgement.lead <= self.profile.lead {
+                return Some(self.question(category, Reason::TooClose));
+            }
+            if let Some(reason) = self.thing_doubt(intent.action, category, best) {
+                return Some(self.about(intent.action, category, reason));
+            }
+        }
+        None
+    }
+
+    /// Whether a thing is missing from the scene or not fit for the action.
+    fn thing_doubt(&self, action: u8, category: Category, option: u8) -> Option<Reason> {
+        if !self.profile.guarded || !category.is_entity() {
+            return None;
+        }
+        let Some(entity) = self.scene.find(category, option) else {
+            return Some(Reason::NotInScene);
+        };
+        let requirement = self
+            .vocabulary
+            .actions()
+            .get(usize::from(action))?
+            .requirement(category);
+        (alignment(requirement, &entity.features) < FEASIBLE).then_some(Reason::Infeasible)
+    }
+
+    /// What stops the action that was heard best, if it is one of its things.
+    fn why_not(&self, heard_best: Option<usize>) -> Option<Question> {
+        let action = u8::try_from(heard_best?).ok()?;
+        self.parameter_doubt(&self.intent(action))
+    }
+
+    /// A question about the options of a category that are in doubt, most likely first.
+    fn question(&self, category: Category, reason: Reason) -> Question {
+        let mut question = Question {
+            category,
+            reason,
+            candidates: Vec::new(),
+        };
+        let Some(word) = self.word(category.index()) else {
+            return question;
+        };
+        let Judgement { clear, unclear, .. } = word.judgement;
+        let open = if reason == Reason::SeveralClear {
+            clear
+        } else {
+            clear | unclear
+        };
+        self.fill(&mut question, word, |option| has(open, option));
+        question
+    }
+
+    /// A question about which thing an action is to be done to: the fit ones, most likely first.
+    fn about(&self, action: u8, category: Category, reason: Reason) -> Question {
+        let mut question = Question {
+            category,
+            reason,
+            candidates: Vec::new(),
+        };
+        let Some(word) = self.word(category.index()) else {
+            return question;
+        };
+        let Some(known) = self.vocabulary.actions().get(usize::from(action)) else {
+            return question;
+        };
+        let requirement = known.requirement(category);
+        self.fill(&mut question, word, |option| {
+            self.scene
+                .find(category, option)
+                .is_some_and(|e| alignment(requirement, &e.features) >= FEASIBLE)
+        });
+        question
+    }
+
+    fn fill(&self, question: &mut Question, word: &CategoryTrace<N>, open: impl Fn(u8) -> bool) {
+        let mut taken = 0_u64;
+        while !question.candidates.is_full() {
+            let mut next = None;
+            let mut top = f32::NEG_INFINITY;
+            for (i, &w) in word.merged().iter().enumerate() {
+                let option = u8::try_from(i).unwrap_or(u8::MAX);
+                if w > top && !has(taken, option) && open(option) {
+                    top = w;
+                    next = Some(option);
+                }
+            }
+            let Some(option) = next else { return };
+            taken |= 1_u64.checked_shl(u32::from(option)).unwrap_or(0);
+            let _ = question.candidates.push(option);
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! Which variant of the method decides, and with which numbers (the paper, Table I; METHOD).
+
+use serde::{Deserialize, Serialize};
+
+use crate::merge::Merge;
+use crate::sentence::{LANGUAGE, MODALITIES};
+
+/// Which penalties apply to an action's likelihood (the paper, Evaluated models).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Model {
+    /// Merge only, by maximum, and take the largest whatever its clarity.
+    Baseline,
+    /// Merge only.
+    M1,
+    /// Merge and alpha: unaligned parameters.
+    M2,
+    /// Merge, alpha and beta: unaligned features too.
+    M3,
+}
+
+/// What makes an option clear.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Threshold {
+    /// Every best option is clear.
+    None,
+    /// h < H(p) of the vector itself.
+    Entropy,
+    /// h < the mean normalised entropy of white noise of the same length.
+    WhiteNoise,
+    /// The likelihood itself against two fixed numbers.
+    Fixed {
+        /// Above this an option is clear; the paper's t_C is 0.25.
+        clear: f32,
+        /// Above this it is unclear, below it noise; the paper's t_U is 0.11.
+        unclear: f32,
+    },
+}
+
+impl Threshold {
+    /// The paper's fixed thresholds.
+    pub const FIXED: Self = Self::Fixed {
+        clear: 0.25,
+        unclear: 0.11,
+    };
+
+    /// Whether clarity is judged on a vector that sums to 1.
+    #[must_use]
+    pub fn is_relative(self) -> bool {
+        matches!(self, Self::Entropy | Self::WhiteNoise)
+    }
+}
+
+/// Which things can speak for an action in beta.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BetaScope {
+    /// Those whose merged likelihood is clear (the paper, eq. 10).
+    Clear,
+    /// Any pair of things in the scene (the reference).
+    Any,
+}
+
+/// When a category counts as present in the merged sentence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Presence {
+    /// With the probability that some present word belongs to it.
+    Probability,
+    /// Surely, when the likelihoods of one modality sum to more than this (the reference: 0.1).
+    Sum(f32),
+}
+
+/// What a modality that lacks a word contributes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Missing {
+    /// Nothing: the word is left out of the mix (the paper).
+    Skip,
+    /// A vector of zeros, which halves a mean and zeroes a product (the reference's fixed modes).
+    Zero,
+}
+
+/// What happens when more than one option is clear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SeveralClear {
+    /// The person is asked (the paper).
+    Ask,
+    /// The best is taken when it leads (the reference).
+    TakeBest,
+}
+
+/// Everything that can be set about a decision.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Profile {
+    /// Which penalties apply.
+    pub model: Model,
+    /// The mixing operator; the Baseline's is [`Merge::Max`].
+    pub merge: Merge,
+    /// Whether words are divided by their diagonal cross-entropy before they are mixed (eq. 4).
+    pub penalised: bool,
+    /// What makes an option clear.
+    pub threshold: Threshold,
+    /// W_m, the weight of each modality.
+    pub weights: [f32; MODALITIES],
+    /// A of eq. 7, in 0..1: what each category out of place multiplies an action's likelihood by.
+    pub signature_penalty: f32,
+    /// Which things can speak for an action.
+    pub beta: BetaScope,
+    /// When a category counts as present.
+    pub presence: Presence,
+    /// What a modality that lacks a word contributes.
+    pub missing: Missing,
+    /// By how much the best option must lead the next.
+    pub lead: f32,
+    /// The smallest cross-entropy a likelihood is divided by; 0.01 lets a certain option count a
+    /// hundredfold.
+    pub least_h: f32,
+    /// What happens when more than one action is clear.
+    pub several_clear: SeveralClear,
+    /// Whether an action that the penalties left almost nothing, or a thing it cannot be done to,
+    /// is asked about instead of executed. The paper normalises what is left, so that the least
+    /// impossible action can look certain.
+    pub guarded: bool,
+    /// Two habits of the reference that the paper does not have: see [`crate::reference`].
+    pub reference_quirks: bool,
+}
+
+impl Profile {
+    /// The paper's full model: M3, penalised sum, thresholds from the vector's own entropy.
+    pub const PAPER: Self = Self {
+        model: Model::M3,
+        merge: Merge::Add,
+        penalised: true,
+        threshold: Threshold::Entropy,
+        weights: [1.0; MODALITIES],
+        signature_penalty: 0.2,
+        beta: BetaScope::Clear,
+        presence: Presence::Probability,
+        missing: Missing::Skip,
+        lead: 0.01,
+        least_h: 0.01,
+        several_clear: SeveralClear::Ask,
+        guarded: true,
+        reference_quirks: false,
+    };
+
+    /// The paper's Baseline: the maximum over modalities, no penalties, no thresholds.
+    pub const BASELINE: Self = Self {
+        model: Model::Baseline,
+        merge: Merge::Max,
+        penalised: false,
+        threshold: Threshold::None,
+        ..Self::PAPER
+    };
+
+    /// The authors' public implementation with entropy thresholds (METHOD, section 5): `merge` is
+    /// `Mul` for its "entropy" and `Add` for its "entropy_add_2".
+    #[must_use]
+    pub const fn reference_entropy(model: Model, merge: Merge) -> Self {
+        Self {
+            model,
+            merge,
+            beta: BetaScope::Any,
+            presence: Presence::Sum(0.1),
+            least_h: 1e-14,
+            several_clear: SeveralClear::TakeBest,
+            guarded: false,
+            reference_quirks: true,
+            ..Self::PAPER
+        }
+    }
+
+    /// The authors' public implementation with fixed thresholds: `merge` is `Mul` for its "mul" and
+    /// `Add` for its "add_2", a mean, whose half is in the weights here.
+    #[must_use]
+    pub const fn reference_fixed(model: Model, merge: Merge) -> Self {
+        let mut weights = [1.0; MODALITIES];
+        let [gesture, language, ..] = &mut weights;
+        *gesture = 0.8;
+        *language = 0.99;
+        if matches!(merge, Merge::Add) {
+            *gesture *= 0.5;
+            *language *= 0.5;
+        }
+        Self {
+            penalised: false,
+            threshold: Threshold::Fixed {
+                clear: 0.2,
+                unclear: 0.11,
+            },
+            weights,
+            missing: Missing::Zero,
+            ..Self::reference_entropy(model, merge)
+        }
+    }
+
+    /// The authors' public implementation of the maximum without thresholds, its "baseline", which
+    /// keeps its penalties.
+    #[must_use]
+    pub const fn reference_baseline(model: Model) -> Self {
+        Self {
+            penalised: false,
+            threshold: Threshold::None,
+            missing: Missing::Zero,
+            ..Self::reference_entropy(model, Merge::Max)
+        }
+    }
+
+    /// The weight of a modality; 0 for one that does not exist.
+    #[must_use]
+    pub fn weight(&self, modality: u8) -> f32 {
+        self.weights
+            .get(usize::from(modality))
+            .copied()
+            .unwrap_or(0.0)
+    }
+
+    /// What is wrong with it, if anything.
+    ///
+    /// # Errors
+    /// [`ProfileError`] naming the field.
+    pub fn check(&self) -> Result<(), ProfileError> {
+        let positive = |x: f32| x > 0.0 && x.is_finite();
+        if !self.weights.iter().all(|&w| positive(w)) {
+            return Err(ProfileError::Weights);
+        }
+        if !(positive(self.signature_penalty) && self.signature_penalty <= 1.0) {
+            return Err(ProfileError::SignaturePenalty);
+        }
+        if !(0.0..1.0).contains(&self.lead) {
+            return Err(ProfileError::Lead);
+        }
+        if !positive(self.least_h) {
+            return Err(ProfileError::LeastH);
+        }
+        match self.threshold {
+            Threshold::Fixed { clear, unclear }
+                if !(unclear >= 0.0 && clear >= unclear && clear.is_finite()) =>
+            {
+                Err(ProfileError::FixedThresholds)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Default for Profile {
+    fn default() -> Self {
+        Self::PAPER
+    }
+}
+
+/// Which field of a [`Profile`] cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ProfileError {
+    /// Weights must be finite and above 0.
+    Weights,
+    /// The signature penalty A must be above 0 and at most 1.
+    SignaturePenalty,
+    /// The lead must be in 0..1.
+    Lead,
+    /// The least cross-entropy must be above 0.
+    LeastH,
+    /// Fixed thresholds must be finite, with clear >= unclear >= 0.
+    FixedThresholds,
+}
+
+const _: () = assert!(
+    LANGUAGE == 1,
+    "reference_fixed writes its weights by position"
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_named_profiles_are_sound() {
+        let models = [Model::M1, Model::M2, Model::M3];
+        for m in models {
+            assert_eq!(Profile::reference_entropy(m, Merge::Mul).check(), Ok(()));
+            assert_eq!(Profile::reference_fixed(m, Merge::Add).check(), Ok(()));
+            assert_eq!(Profile::reference_baseline(m).check(), Ok(()));
+        }
+        assert_eq!(Profile::PAPER.check(), Ok(()));
+        assert_eq!(Profile::BASELINE.check(), Ok(()));
+        assert_eq!(
+            Profile::reference_fixed(Model::M1, Merge::Add).weight(LANGUAGE),
+            0.495
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_is_named() {
+        let bad = |change: fn(&mut Profile)| {
+            let mut p = Profile::PAPER;
+            change(&mut p);
+            p.check()
+        };
+        assert_eq!(bad(|p| p.weights[2] = f32::NAN), Err(ProfileError::Weights));
+        assert_eq!(
+            bad(|p| p.signature_penalty = 0.0),
+            Err(ProfileError::SignaturePenalty)
+        );
+        assert_eq!(bad(|p| p.lead = 1.0), Err(ProfileError::Lead));
+        assert_eq!(bad(|p| p.least_h = 0.0), Err(ProfileError::LeastH));
+        let upside_down = Threshold::Fixed {
+            clear: 0.1,
+            unclear: 0.2,
+        };
+        let p = Profile {
+            threshold: upside_down,
+            ..Profile::PAPER
+        };
+        assert_eq!(p.check(), Err(ProfileError::FixedThresholds));
+    }
+}

@@ -1,0 +1,355 @@
+//! What can be said and shown: categories, their options, and what every action needs (the paper,
+//! Problem formulation: action parameters and object features).
+//!
+//! The core knows numbers only. Names live on the host; [`Vocabulary::fingerprint`] is the host's
+//! hash over them, so that both sides can tell that they mean the same words.
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use crate::category::{Category, CategorySet, FeatureSet};
+
+/// Which parameters an action takes, each category at most once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Signature {
+    /// Without these the action cannot be done.
+    pub compulsory: CategorySet,
+    /// These may be given; giving or leaving them costs nothing.
+    pub voluntary: CategorySet,
+}
+
+/// A conjunction of features that an action needs of an object or a storage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Requirement {
+    /// Features it must have.
+    pub wanted: FeatureSet,
+    /// Features it must not have.
+    pub unwanted: FeatureSet,
+}
+
+/// One action: its signature and what it needs of its object and storage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Action {
+    /// The parameters it takes.
+    pub signature: Signature,
+    /// What the target object must be like; without effect when no object is compulsory.
+    pub object: Requirement,
+    /// What the storage must be like; without effect when no storage is compulsory.
+    pub storage: Requirement,
+}
+
+impl Action {
+    /// The requirement on the things of one entity category.
+    #[must_use]
+    pub fn requirement(&self, category: Category) -> Requirement {
+        match category {
+            Category::OBJECT => self.object,
+            Category::STORAGE => self.storage,
+            _ => Requirement::default(),
+        }
+    }
+}
+
+/// Why a vocabulary was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum VocabularyError {
+    /// No action at all.
+    NoActions,
+    /// More actions than this build holds.
+    TooManyActions {
+        /// How many it holds.
+        capacity: u8,
+    },
+    /// More categories than this build holds, or than the 32 there can be.
+    TooManyCategories {
+        /// How many it holds.
+        capacity: u8,
+    },
+    /// A category has more options than this build holds.
+    TooManyOptions {
+        /// The category.
+        category: Category,
+        /// How many options it holds.
+        capacity: u8,
+    },
+    /// More features than this build holds, or than the 32 there can be.
+    TooManyFeatures {
+        /// How many it holds.
+        capacity: u8,
+    },
+    /// A signature names a category that the vocabulary does not have, or the action category,
+    /// which every action has without saying.
+    UnknownCategory {
+        /// The action whose signature it is.
+        action: u8,
+    },
+    /// A category is both compulsory and voluntary.
+    Contradiction {
+        /// The action whose signature or requirement it is.
+        action: u8,
+    },
+    /// A requirement names a feature that the vocabulary does not have.
+    UnknownFeature {
+        /// The action whose requirement it is.
+        action: u8,
+    },
+    /// The stop action does not exist or takes compulsory parameters.
+    BadStop,
+}
+
+/// All words of one installation, without their names.
+///
+/// `N` options per category at most (actions too), `C` categories, `F` features; no more than 64
+/// options whatever `N`, as sets of options are 64 bits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vocabulary<const N: usize, const C: usize, const F: usize> {
+    actions: Vec<Action, N>,
+    options: Vec<u8, C>,
+    features: u8,
+    stop: Option<u8>,
+    fingerprint: u32,
+}
+
+impl<const N: usize, const C: usize, const F: usize> Default for Vocabulary<N, C, F> {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
+impl<const N: usize, const C: usize, const F: usize> Vocabulary<N, C, F> {
+    /// The vocabulary of a unit that was not told one: every sentence is refused.
+    pub const EMPTY: Self = Self {
+        actions: Vec::new(),
+        options: Vec::new(),
+        features: 0,
+        stop: None,
+        fingerprint: 0,
+    };
+
+    const OPTIONS: usize = if N < 64 { N } else { 64 };
+
+    /// A checked vocabulary.
+    ///
+    /// `parameters[i]` is the number of options of category `i + 1` (objects first): 0 when the
+    /// vocabulary has no such category, 1 for one that carries a quantity only. `stop` is the
+    /// action that beats everything, `fingerprint` the host's hash over all names.
+    ///
+    /// # Errors
+    /// [`VocabularyError`] for what does not fit or contradicts itself, with its place.
+    pub fn new(
+        actions: &[Action],
+        parameters: &[u8],
+        features: u8,
+        stop: Option<u8>,
+        fingerprint: u32,
+    ) -> Result<Self, VocabularyError> {
+        if actions.is_empty() {
+            return Err(VocabularyError::NoActions);
+        }
+        if actions.len() > Self::OPTIONS {
+            return Err(VocabularyError::TooManyActions {
+                capacity: saturate(Self::OPTIONS),
+            });
+        }
+        let actions = Vec::from_slice(actions).map_err(|_| VocabularyError::TooManyActions {
+            capacity: saturate(Self::OPTIONS),
+        })?;
+        let mut options = Vec::new();
+        let too_many = VocabularyError::TooManyCategories {
+            capacity: saturate(C.min(Category::LIMIT)),
+        };
+        options
+            .push(saturate(actions.len()))
+            .map_err(|_| too_many)?;
+        for (i, &count) in parameters.iter().enumerate() {
+            let category = Category::from_index(i.saturating_add(1)).ok_or(too_many)?;
+            if usize::from(count) > Self::OPTIONS {
+                return Err(VocabularyError::TooManyOptions {
+                    category,
+                    capacity: saturate(Self::OPTIONS),
+                });
+            }
+            options.push(count).map_err(|_| too_many)?;
+        }
+        if usize::from(features) > F.min(32) {
+            return Err(VocabularyError::TooManyFeatures {
+                capacity: saturate(F.min(32)),
+            });
+        }
+        let vocabulary = Self {
+            actions,
+            options,
+            features,
+            stop,
+            fingerprint,
+        };
+        vocabulary.check_actions()?;
+        Ok(vocabulary)
+    }
+
+    fn check_actions(&self) -> Result<(), VocabularyError> {
+        let mut known = CategorySet::EMPTY;
+        for (i, &count) in self.options.iter().enumerate().skip(1) {
+            if count > 0 {
+                known = known.with(i);
+            }
+        }
+        for (i, action) in self.actions.iter().enumerate() {
+            let at = saturate(i);
+            let Signature {
+                compulsory,
+                voluntary,
+            } = action.signature;
+            if compulsory.union(voluntary).0 & !known.0 != 0 {
+                return Err(VocabularyError::UnknownCategory { action: at });
+            }
+            if !compulsory.intersection(voluntary).is_empty() {
+                return Err(VocabularyError::Contradiction { action: at });
+            }
+            for need in [action.object, action.storage] {
+                if !need
+                    .wanted
+                    .union(need.unwanted)
+                    .fits(usize::from(self.features))
+                {
+                    return Err(VocabularyError::UnknownFeature { action: at });
+                }
+                if !need.wanted.intersection(need.unwanted).is_empty() {
+                    return Err(VocabularyError::Contradiction { action: at });
+                }
+            }
+        }
+        match self.stop.map(|stop| self.actions.get(usize::from(stop))) {
+            None => Ok(()),
+            Some(Some(action)) if action.signature.compulsory.is_empty() => Ok(()),
+            Some(_) => Err(VocabularyError::BadStop),
+        }
+    }
+
+    /// The actions, in the order of an action word's likelihoods.
+    #[must_use]
+    pub fn actions(&self) -> &[Action] {
+        &self.actions
+    }
+
+    /// The number of options of every category, actions first.
+    #[must_use]
+    pub fn options(&self) -> &[u8] {
+        &self.options
+    }
+
+    /// How many options this category has; 0 for one that the vocabulary does not have.
+    #[must_use]
+    pub fn options_of(&self, category: Category) -> usize {
+        self.options
+            .get(category.index())
+            .map_or(0, |&n| usize::from(n))
+    }
+
+    /// How many features a thing of the scene has.
+    #[must_use]
+    pub fn features(&self) -> usize {
+        usize::from(self.features)
+    }
+
+    /// The action that beats everything, if there is one.
+    #[must_use]
+    pub fn stop(&self) -> Option<u8> {
+        self.stop
+    }
+
+    /// The host's hash over all names.
+    #[must_use]
+    pub fn fingerprint(&self) -> u32 {
+        self.fingerprint
+    }
+}
+
+/// A count as a byte, 255 when it is larger.
+fn saturate(count: usize) -> u8 {
+    u8::try_from(count).unwrap_or(u8::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::category::BitSet;
+
+    type Small = Vocabulary<4, 4, 8>;
+
+    fn pick() -> Action {
+        Action {
+            signature: Signature {
+                compulsory: [Category::OBJECT].into_iter().collect(),
+                voluntary: CategorySet::EMPTY,
+            },
+            object: Requirement {
+                wanted: BitSet(0b10),
+                unwanted: BitSet(0b01),
+            },
+            storage: Requirement::default(),
+        }
+    }
+
+    #[test]
+    fn a_good_vocabulary_is_kept_as_given() {
+        let v = Small::new(&[Action::default(), pick()], &[3, 2], 2, Some(0), 7).unwrap();
+        assert_eq!(v.options(), [2, 3, 2]);
+        assert_eq!((v.features(), v.stop(), v.fingerprint()), (2, Some(0), 7));
+        assert_eq!(v.options_of(Category::DISTANCE), 0);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused_by_name() {
+        let many = [Action::default(); 5];
+        assert_eq!(
+            Small::new(&[], &[], 0, None, 0),
+            Err(VocabularyError::NoActions)
+        );
+        assert_eq!(
+            Small::new(&many, &[], 0, None, 0),
+            Err(VocabularyError::TooManyActions { capacity: 4 })
+        );
+        assert_eq!(
+            Small::new(&[pick()], &[5], 2, None, 0),
+            Err(VocabularyError::TooManyOptions {
+                category: Category::OBJECT,
+                capacity: 4
+            })
+        );
+        assert_eq!(
+            Small::new(&[pick()], &[1, 1, 1, 1], 2, None, 0),
+            Err(VocabularyError::TooManyCategories { capacity: 4 })
+        );
+        assert_eq!(
+            Small::new(&[pick()], &[1], 9, None, 0),
+            Err(VocabularyError::TooManyFeatures { capacity: 8 })
+        );
+    }
+
+    #[test]
+    fn what_contradicts_itself_is_refused_with_its_place() {
+        assert_eq!(
+            Small::new(&[Action::default(), pick()], &[], 2, None, 0),
+            Err(VocabularyError::UnknownCategory { action: 1 })
+        );
+        assert_eq!(
+            Small::new(&[pick()], &[2], 1, None, 0),
+            Err(VocabularyError::UnknownFeature { action: 0 })
+        );
+        let mut torn = pick();
+        torn.signature.voluntary = torn.signature.compulsory;
+        assert_eq!(
+            Small::new(&[torn], &[2], 2, None, 0),
+            Err(VocabularyError::Contradiction { action: 0 })
+        );
+        assert_eq!(
+            Small::new(&[pick()], &[2], 2, Some(0), 0),
+            Err(VocabularyError::BadStop)
+        );
+        assert_eq!(
+            Small::new(&[pick()], &[2], 2, Some(9), 0),
+            Err(VocabularyError::BadStop)
+        );
+    }
+}
