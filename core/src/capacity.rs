@@ -3,7 +3,7 @@
 /// Names the core's types for one set of capacities.
 macro_rules! capacities {
     ($(#[$doc:meta])* $name:ident: options $n:literal, categories $c:literal, features $f:literal,
-     entities $e:literal, words $w:literal, frame $frame:literal) => {
+     entities $e:literal, words $w:literal, frame $frame:literal, outbox $out:literal) => {
         $(#[$doc])*
         pub mod $name {
             /// Options per category, actions included.
@@ -16,7 +16,7 @@ macro_rules! capacities {
             pub const ENTITIES: usize = $e;
             /// Words in a sentence.
             pub const WORDS: usize = $w;
-            /// Bytes of the longest frame, encoded.
+            /// Bytes of the longest frame before stuffing.
             pub const FRAME: usize = $frame;
             /// [`crate::vocabulary::Vocabulary`] of these capacities.
             pub type Vocabulary = crate::vocabulary::Vocabulary<$n, $c, $f>;
@@ -36,22 +36,22 @@ macro_rules! capacities {
             pub type Decision = crate::decide::Decision<$c>;
             /// [`crate::trace::Trace`] of these capacities.
             pub type Trace = crate::trace::Trace<$c, $n>;
-////            /// [`crate::protocol::message::Message`] of these capacities.
-////            pub type Message = crate::protocol::message::Message<$n, $c, $f, $w>;
-////            /// [`crate::protocol::link::Link`] of these capacities.
-////            pub type Link = crate::protocol::link::Link<$frame>;
-////            /// [`crate::unit::Unit`] of these capacities.
-////            pub type Unit = crate::unit::Unit<$n, $c, $f, $e, $w, $frame>;
+            /// [`crate::protocol::message::Message`] of these capacities.
+            pub type Message = crate::protocol::message::Message<$n, $c, $f, $w>;
+            /// [`crate::protocol::link::Link`] of these capacities.
+            pub type Link = crate::protocol::link::Link<$frame>;
+            /// [`crate::unit::Unit`] of these capacities.
+            pub type Unit = crate::unit::Unit<$n, $c, $f, $e, $w, $frame, $out>;
         }
     };
 }
 
 capacities! {
     /// What a gesture unit with 16 KiB of RAM to spare holds: the paper's vocabulary twice over.
-    board: options 16, categories 8, features 16, entities 16, words 6, frame 768
+    board: options 16, categories 8, features 16, entities 16, words 6, frame 768, outbox 2048
 }
 
 capacities! {
     /// What a host or a large board holds.
-    large: options 64, categories 16, features 32, entities 128, words 8, frame 4096
+    large: options 64, categories 16, features 32, entities 128, words 8, frame 4096, outbox 16384
 }

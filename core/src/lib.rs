@@ -45,13 +45,13 @@ pub mod judgement;
 pub mod math;
 pub mod merge;
 pub mod profile;
-// pub mod protocol;
+pub mod protocol;
 pub mod reference;
 pub mod scene;
 pub mod sentence;
 pub mod time;
 pub mod trace;
-// pub mod unit;
+pub mod unit;
 pub mod vocabulary;
 pub mod white_noise;
 

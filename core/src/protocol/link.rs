@@ -1,0 +1,275 @@
+//! One end of a link: frames in and out, sequence numbers, and a counter for every kind of lost
+//! frame.
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use super::stuffing::{FrameError, FrameReader, FrameWriter, Outbox};
+
+/// What has become of frames since the start. Every counter stops at its largest value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Frames that were taken.
+    pub received: u32,
+    /// Frames that were written.
+    pub sent: u32,
+    /// Dropped: the stuffing was broken or the frame was cut short.
+    pub malformed: u32,
+    /// Dropped: the CRC did not match.
+    pub corrupt: u32,
+    /// Dropped: longer than the receive buffer.
+    pub oversized: u32,
+    /// Dropped: sound, but not a message of this schema.
+    pub undecodable: u32,
+    /// Dropped: the same sequence number as the frame before.
+    pub duplicated: u32,
+    /// Dropped: older than the frame before.
+    pub reordered: u32,
+    /// Frames that never came, by the gaps in the sequence numbers.
+    pub missed: u32,
+    /// Frames of our own for which there was no room.
+    pub unsent: u32,
+}
+
+impl Counters {
+    /// Nothing has happened yet.
+    pub const ZERO: Self = Self {
+        received: 0,
+        sent: 0,
+        malformed: 0,
+        corrupt: 0,
+        oversized: 0,
+        undecodable: 0,
+        duplicated: 0,
+        reordered: 0,
+        missed: 0,
+        unsent: 0,
+    };
+
+    /// How many received frames were dropped, whatever the reason.
+    #[must_use]
+    pub fn dropped(&self) -> u32 {
+        [
+            self.malformed,
+            self.corrupt,
+            self.oversized,
+            self.undecodable,
+            self.duplicated,
+            self.reordered,
+        ]
+        .iter()
+        .fold(0, |sum, n| sum.saturating_add(*n))
+    }
+}
+
+/// A message that can open a conversation, whatever was said before.
+pub trait Opening {
+    /// Whether sequence numbers start anew with this message.
+    fn opens(&self) -> bool;
+}
+
+/// A message that arrived.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Received<M> {
+    /// What was said.
+    pub message: M,
+    /// How many frames before it were lost; what must not be acted upon after a gap looks here.
+    pub missed: u16,
+}
+
+/// One end of a link with frames of at most `FRAME` bytes before stuffing.
+#[derive(Debug)]
+pub struct Link<const FRAME: usize> {
+    reader: FrameReader<FRAME>,
+    expected: u16,
+    next: u16,
+    counters: Counters,
+}
+
+impl<const FRAME: usize> Default for Link<FRAME> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const FRAME: usize> Link<FRAME> {
+    /// An end that has neither sent nor received.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            reader: FrameReader::new(),
+            expected: 0,
+            next: 0,
+            counters: Counters::ZERO,
+        }
+    }
+
+    /// What has become of frames so far.
+    #[must_use]
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Takes one byte, and gives the message that it completes, if it does and the message is to be
+    /// taken. Everything else is counted.
+    pub fn receive<M: DeserializeOwned + Opening>(&mut self, byte: u8) -> Option<Received<M>> {
+        let counters = &mut self.counters;
+        let contents = match self.reader.push(byte)? {
+            Ok(contents) => contents,
+            Err(error) => {
+                count(match error {
+                    FrameError::Malformed => &mut counters.malformed,
+                    FrameError::Corrupt => &mut counters.corrupt,
+                    FrameError::Oversized => &mut counters.oversized,
+                });
+                return None;
+            }
+        };
+        let Ok(((sequence, message), [])) = postcard::take_from_bytes::<(u16, M)>(contents) else {
+            count(&mut counters.undecodable);
+            return None;
+        };
+        let missed = if message.opens() {
+            0
+        } else {
+            // The half of all numbers ahead of the expected one is new, the other half is old.
+            let ahead = sequence.wrapping_sub(self.expected);
+            if ahead == u16::MAX {
+                count(&mut counters.duplicated);
+                return None;
+            }
+            if ahead > u16::MAX / 2 {
+                count(&mut counters.reordered);
+                return None;
+            }
+            ahead
+        };
+        self.expected = sequence.wrapping_add(1);
+        counters.missed = counters.missed.saturating_add(u32::from(missed));
+        count(&mut counters.received);
+        Some(Received { message, missed })
+    }
+
+    /// Puts a message into the outbox, or counts that there was no room for it and gives `false`.
+    pub fn send<M: Serialize, const OUT: usize>(
+        &mut self,
+        message: &M,
+        out: &mut Outbox<OUT>,
+    ) -> bool {
+        let framed = FrameWriter::new(out)
+            .and_then(|writer| postcard::serialize_with_flavor(&(self.next, message), writer));
+        if framed.is_err() {
+            count(&mut self.counters.unsent);
+            return false;
+        }
+        self.next = self.next.wrapping_add(1);
+        count(&mut self.counters.sent);
+        true
+    }
+}
+
+fn count(counter: &mut u32) {
+    *counter = counter.saturating_add(1);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, PartialEq, Serialize, Deserialize)]
+    enum Note {
+        Open,
+        Text(u8),
+    }
+
+    impl Opening for Note {
+        fn opens(&self) -> bool {
+            *self == Self::Open
+        }
+    }
+
+    fn frame(sender: &mut Link<64>, note: &Note) -> std::vec::Vec<u8> {
+        let mut out = Outbox::<64>::new();
+        assert!(sender.send(note, &mut out));
+        out.waiting().to_vec()
+    }
+
+    fn take(receiver: &mut Link<64>, bytes: &[u8]) -> Option<Received<Note>> {
+        bytes
+            .iter()
+            .fold(None, |got, b| receiver.receive(*b).or(got))
+    }
+
+    #[test]
+    fn duplicates_and_stragglers_are_dropped_and_gaps_are_told() {
+        let (mut a, mut b) = (Link::new(), Link::new());
+        let frames: std::vec::Vec<_> = (0..6).map(|i| frame(&mut a, &Note::Text(i))).collect();
+        assert_eq!(take(&mut b, &frames[0]).unwrap().missed, 0);
+        assert_eq!(take(&mut b, &frames[0]), None);
+        assert_eq!(
+            take(&mut b, &frames[3]),
+            Some(Received {
+                message: Note::Text(3),
+                missed: 2
+            })
+        );
+        assert_eq!(take(&mut b, &frames[1]), None);
+        assert_eq!(take(&mut b, &frames[4]).unwrap().missed, 0);
+        let c = b.counters();
+        assert_eq!(
+            (c.received, c.duplicated, c.reordered, c.missed),
+            (3, 1, 1, 2)
+        );
+        assert_eq!(c.dropped(), 2);
+    }
+
+    #[test]
+    fn an_opening_starts_the_numbers_anew() {
+        let (mut a, mut b) = (Link::new(), Link::new());
+        for i in 0..5 {
+            let f = frame(&mut a, &Note::Text(i));
+            take(&mut b, &f);
+        }
+        let mut reborn = Link::new();
+        let first = frame(&mut reborn, &Note::Text(9));
+        assert_eq!(take(&mut b, &first), None);
+        let open = frame(&mut reborn, &Note::Open);
+        assert_eq!(take(&mut b, &open).unwrap().missed, 0);
+        let next = frame(&mut reborn, &Note::Text(1));
+        assert_eq!(take(&mut b, &next).unwrap().missed, 0);
+    }
+
+    #[test]
+    fn numbers_wrap() {
+        let (mut a, mut b) = (Link::new(), Link::new());
+        a.next = u16::MAX;
+        b.expected = u16::MAX;
+        for i in 0..3 {
+            let f = frame(&mut a, &Note::Text(i));
+            assert_eq!(take(&mut b, &f).unwrap().missed, 0);
+        }
+    }
+
+    #[test]
+    fn sound_frames_with_other_contents_are_counted() {
+        let (mut a, mut b) = (Link::<64>::new(), Link::<64>::new());
+        let mut out = Outbox::<64>::new();
+        a.send(&(7_u8, 8_u64), &mut out);
+        let bytes = out.waiting().to_vec();
+        assert_eq!(take(&mut b, &bytes), None);
+        // The same message with something behind it is not that message.
+        let mut out = Outbox::<64>::new();
+        a.send(&(Note::Text(1), 5_u8), &mut out);
+        let bytes = out.waiting().to_vec();
+        assert_eq!(take(&mut b, &bytes), None);
+        assert_eq!(b.counters().undecodable, 2);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_counted() {
+        let mut a = Link::<64>::new();
+        let mut out = Outbox::<8>::new();
+        assert!(!a.send(&Note::Text(1), &mut out) || out.waiting().len() <= 8);
+        assert!(!a.send(&[1_u64; 8], &mut out));
+        assert!(a.counters().unsent >= 1);
+    }
+}

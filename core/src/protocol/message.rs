@@ -1,0 +1,321 @@
+//! What unit and host say to each other.
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use super::link::{Counters, Opening};
+use crate::category::Category;
+use crate::decide::Decision;
+use crate::fuse::FuseError;
+use crate::profile::{Profile, ProfileError};
+use crate::scene::{Entity, SceneError};
+use crate::sentence::{Sentence, SentenceError};
+use crate::time::Micros;
+use crate::vocabulary::{Action, VocabularyError};
+
+/// How many actions or things one part of a vocabulary or scene carries.
+pub const PART: usize = 4;
+
+/// Everything that can be said, in either direction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Message<const N: usize, const C: usize, const F: usize, const W: usize> {
+    /// Opens a conversation and answers an opening. Its form never changes, so that ends of
+    /// different versions can tell each other so.
+    Hello(Hello),
+    /// Both ways, twice a second and more: the sender lives.
+    Heartbeat(Heartbeat),
+    /// Host to unit: part of a vocabulary.
+    Vocabulary(VocabularyPart<N, C>),
+    /// Host to unit: part of a scene.
+    Scene(ScenePart<F>),
+    /// Host to unit: how to decide.
+    Configure(Configuration),
+    /// Host to unit: what one modality observed.
+    Sentence(Sentence<W, C, N>),
+    /// Host to unit: the person's answer to a question.
+    Answer(Answer<W, C, N>),
+    /// Host to unit: how the robot fares with a command.
+    Robot(RobotStatus),
+    /// Host to unit: tell your statistics.
+    AskStatistics,
+    /// Unit to host: this was taken over.
+    Loaded(Loaded),
+    /// Unit to host: what to do now.
+    Decision(Decided<C>),
+    /// Unit to host, when configured: why, one category at a time.
+    Why(Why<N>),
+    /// Unit to host, when configured: why, the actions' penalties.
+    WhyActions(WhyActions<N>),
+    /// Unit to host: something was not right; nothing was done.
+    Fault(Fault),
+    /// Unit to host: what it has counted.
+    Statistics(Statistics),
+}
+
+impl<const N: usize, const C: usize, const F: usize, const W: usize> Opening
+    for Message<N, C, F, W>
+{
+    fn opens(&self) -> bool {
+        matches!(self, Self::Hello(_))
+    }
+}
+
+/// Who speaks, and in which version.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hello {
+    /// [`super::VERSION`] of the sender.
+    pub version: u16,
+    /// [`super::SCHEMA`] of the sender.
+    pub schema: u32,
+    /// Different after every start of the sender.
+    pub boot: u32,
+    /// What the sender can hold.
+    pub capacities: Capacities,
+}
+
+/// What an end can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Capacities {
+    /// Options per category, actions included.
+    pub options: u16,
+    /// Categories, the action's included.
+    pub categories: u16,
+    /// Features of a thing.
+    pub features: u16,
+    /// Things in a scene.
+    pub entities: u16,
+    /// Words in a sentence.
+    pub words: u16,
+    /// Bytes of a frame before stuffing.
+    pub frame: u16,
+}
+
+/// The sender lives, and this is what it holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Heartbeat {
+    /// The sender's clock.
+    pub now: Micros,
+    /// Fingerprint of its vocabulary; 0 without one.
+    pub vocabulary: u32,
+    /// Version of its scene; 0 without one.
+    pub scene: u32,
+}
+
+/// Part of a vocabulary: up to [`PART`] of its actions, and all else with each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VocabularyPart<const N: usize, const C: usize> {
+    /// The host's hash over all names.
+    pub fingerprint: u32,
+    /// Options of every category after the action.
+    pub parameters: Vec<u8, C>,
+    /// How many features a thing has.
+    pub features: u8,
+    /// The action that beats everything.
+    pub stop: Option<u8>,
+    /// How many actions there are in all.
+    pub total: u8,
+    /// The place of this part's first.
+    pub first: u8,
+    /// The actions of this part.
+    pub actions: Vec<Action, PART>,
+}
+
+/// Part of a scene: up to [`PART`] of its things.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScenePart<const F: usize> {
+    /// The scene's number; larger than the one before, never 0.
+    pub version: u32,
+    /// How many things there are in all.
+    pub total: u8,
+    /// The place of this part's first.
+    pub first: u8,
+    /// The things of this part.
+    pub entities: Vec<Entity<F>, PART>,
+}
+
+/// How to decide.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Configuration {
+    /// The variant of the method and its numbers.
+    pub profile: Profile,
+    /// How long to wait for further modalities after the first sentence.
+    pub window: Micros,
+    /// The modalities that are waited for, one bit each.
+    pub expected: u8,
+    /// Whether to say why with every decision.
+    pub explain: bool,
+}
+
+impl Configuration {
+    /// The paper's method, a second's wait for gesture and language, no reasons.
+    pub const DEFAULT: Self = Self {
+        profile: Profile::PAPER,
+        window: Micros::from_millis(1_000),
+        expected: 0b11,
+        explain: false,
+    };
+}
+
+/// The person's answer to a question, as one more sentence on what was asked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Answer<const W: usize, const C: usize, const N: usize> {
+    /// The number of the decision that asked.
+    pub decision: u32,
+    /// What was answered.
+    pub sentence: Sentence<W, C, N>,
+}
+
+/// How the robot fares with a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RobotStatus {
+    /// The number of the decision that commanded it.
+    pub decision: u32,
+    /// How far it is.
+    pub state: RobotState,
+}
+
+/// What a robot makes of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RobotState {
+    /// It is moving: percent done.
+    Running(u8),
+    /// It has done it.
+    Done,
+    /// It would not begin.
+    Refused,
+    /// It was stopped on the way.
+    Stopped,
+    /// It failed on the way.
+    Failed,
+}
+
+/// What was taken over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Loaded {
+    /// The vocabulary with this fingerprint.
+    Vocabulary(u32),
+    /// The scene of this version.
+    Scene(u32),
+    /// The configuration.
+    Configuration,
+}
+
+/// A decision and what it was made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decided<const C: usize> {
+    /// Its number, counted from 1 at every start of the unit.
+    pub number: u32,
+    /// The fingerprint of the vocabulary it speaks.
+    pub vocabulary: u32,
+    /// The version of the scene it was made on.
+    pub scene: u32,
+    /// The modalities it draws on, one bit each.
+    pub modalities: u8,
+    /// What to do now.
+    pub decision: Decision<C>,
+}
+
+/// Why a decision came out as it did: one category ([`crate::trace::CategoryTrace`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Why<const N: usize> {
+    /// The decision's number.
+    pub number: u32,
+    /// The category.
+    pub category: Category,
+    /// Probability that it is in the merged sentence.
+    pub present: f32,
+    /// The merged word; for actions after alpha and beta.
+    pub merged: Vec<f32, N>,
+    /// Its diagonal cross-entropy.
+    pub h: Vec<f32, N>,
+    /// Its normalised entropy.
+    pub entropy: f32,
+    /// Against what clarity was judged.
+    pub threshold: f32,
+    /// Which options are clear, one bit each.
+    pub clear: u64,
+}
+
+/// Why a decision came out as it did: the actions' penalties.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WhyActions<const N: usize> {
+    /// The decision's number.
+    pub number: u32,
+    /// The merged action word before any penalty.
+    pub heard: Vec<f32, N>,
+    /// alpha of every action.
+    pub alpha: Vec<f32, N>,
+    /// beta of every action.
+    pub beta: Vec<f32, N>,
+}
+
+/// Something was not right. Nothing was done about the message in question.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fault {
+    /// The other end speaks another schema; both are named.
+    Schema {
+        /// This unit's version and schema.
+        unit: (u16, u32),
+        /// The host's version and schema.
+        host: (u16, u32),
+    },
+    /// Something was said before Hello.
+    NoHello,
+    /// A sentence or scene came before a vocabulary.
+    NoVocabulary,
+    /// A sentence came before a scene.
+    NoScene,
+    /// A part of a vocabulary or scene came out of order; send all parts again from the first.
+    PartOutOfOrder {
+        /// The place of the part's first that was expected.
+        expected: u8,
+        /// The place it had.
+        got: u8,
+    },
+    /// A scene is not newer than the one that is held.
+    OldScene {
+        /// The version that is held.
+        held: u32,
+        /// The version that came.
+        got: u32,
+    },
+    /// The vocabulary cannot be.
+    Vocabulary(VocabularyError),
+    /// The scene cannot be.
+    Scene(SceneError),
+    /// A sentence cannot be.
+    Sentence {
+        /// Which modality's.
+        modality: u8,
+        /// What is wrong with it.
+        error: SentenceError,
+    },
+    /// The configuration cannot be.
+    Configuration(ProfileError),
+    /// A decision could not be made.
+    Decision(FuseError),
+    /// An answer to a question that is not open.
+    NoQuestion {
+        /// The number that was answered.
+        decision: u32,
+    },
+    /// A message that only a unit sends.
+    NotForUnit,
+    /// The host was not heard for too long: what was waiting is forgotten.
+    HostLost,
+}
+
+/// What a unit has counted since it started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// What has become of frames.
+    pub link: Counters,
+    /// Decisions to execute.
+    pub executes: u32,
+    /// Decisions to ask.
+    pub asks: u32,
+    /// Decisions to ask for a repetition.
+    pub repeats: u32,
+    /// Faults that were told.
+    pub faults: u32,
+}

@@ -1,0 +1,259 @@
+//! The gesture unit as a state machine: bytes and time in, bytes out. Board, host tests, replays and
+//! fuzzers run this very code.
+//!
+//! A conversation opens with the host's Hello, which empties the unit: whatever the host relied on
+//! before is loaded anew. Then come vocabulary, scene and configuration ([`loading`]), sentences and
+//! answers ([`pairing`]), and heartbeats both ways. Everything unexpected is answered by a
+//! [`Fault`] and changes nothing.
+
+pub mod loading;
+pub mod pairing;
+
+use crate::protocol::link::{Counters, Link, Received};
+use crate::protocol::message::{
+    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, Message, RobotState, Statistics,
+};
+use crate::protocol::stuffing::Outbox;
+use crate::protocol::{SCHEMA, VERSION};
+use crate::time::Micros;
+use crate::trace::Trace;
+use loading::Loading;
+use pairing::Pairing;
+
+/// How often the unit shows that it lives.
+pub const HEARTBEAT: Micros = Micros::from_millis(500);
+
+/// After how long without a frame the host counts as lost.
+pub const HOST_LOST: Micros = Micros::from_millis(2_000);
+
+/// A gesture unit. `N` options, `C` categories, `F` features, `E` things, `W` words, frames of
+/// `FRAME` bytes before stuffing, `OUT` bytes waiting to be written.
+#[derive(Debug)]
+pub struct Unit<
+    const N: usize,
+    const C: usize,
+    const F: usize,
+    const E: usize,
+    const W: usize,
+    const FRAME: usize,
+    const OUT: usize,
+> {
+    boot: u32,
+    link: Link<FRAME>,
+    outbox: Outbox<OUT>,
+    /// Whether a host of the same schema has opened the conversation.
+    open: bool,
+    heard: Micros,
+    beat: Micros,
+    loading: Loading<N, C, F, E>,
+    pairing: Pairing<N, C, W>,
+    trace: Trace<C, N>,
+    configuration: Configuration,
+    /// Whether the robot is carrying out a command.
+    moving: bool,
+    statistics: Statistics,
+}
+
+impl<
+    const N: usize,
+    const C: usize,
+    const F: usize,
+    const E: usize,
+    const W: usize,
+    const FRAME: usize,
+    const OUT: usize,
+> Unit<N, C, F, E, W, FRAME, OUT>
+{
+    /// A unit that has just started; `boot` tells this start from others.
+    #[must_use]
+    pub const fn new(boot: u32) -> Self {
+        Self {
+            boot,
+            link: Link::new(),
+            outbox: Outbox::new(),
+            open: false,
+            heard: Micros(0),
+            beat: Micros(0),
+            loading: Loading::new(),
+            pairing: Pairing::new(),
+            trace: Trace::new(),
+            configuration: Configuration::DEFAULT,
+            moving: false,
+            statistics: Statistics {
+                link: Counters::ZERO,
+                executes: 0,
+                asks: 0,
+                repeats: 0,
+                faults: 0,
+            },
+        }
+    }
+
+    /// What this build holds.
+    #[must_use]
+    pub const fn capacities() -> Capacities {
+        Capacities {
+            options: N as u16,
+            categories: C as u16,
+            features: F as u16,
+            entities: E as u16,
+            words: W as u16,
+            frame: FRAME as u16,
+        }
+    }
+
+    /// Takes bytes from the host link, in pieces of any size.
+    pub fn receive(&mut self, now: Micros, bytes: &[u8]) {
+        for &byte in bytes {
+            if let Some(Received { message, .. }) = self.link.receive(byte) {
+                self.heard = now;
+                self.take(now, message);
+            }
+        }
+    }
+
+    /// Does what is due by now: a decision whose window has closed, a heartbeat, giving up a host
+    /// that fell silent.
+    pub fn poll(&mut self, now: Micros) {
+        if !self.open {
+            return;
+        }
+        if now.since(self.heard) >= HOST_LOST {
+            self.open = false;
+            self.moving = false;
+            self.pairing.clear();
+            self.fault(Fault::HostLost);
+            return;
+        }
+        if self.pairing.is_due(now) {
+            self.decide_pending(now);
+        }
+        if now >= self.beat {
+            self.beat = now.after(HEARTBEAT);
+            self.send(&Message::Heartbeat(Heartbeat {
+                now,
+                vocabulary: self.loading.vocabulary().map_or(0, |v| v.fingerprint()),
+                scene: self.loading.scene().map_or(0, |s| s.version()),
+            }));
+        }
+    }
+
+    /// The latest moment at which [`Unit::poll`] is to be called again.
+    #[must_use]
+    pub fn next_wake(&self) -> Micros {
+        if self.open {
+            self.beat
+                .min(self.pairing.due())
+                .min(self.heard.after(HOST_LOST))
+        } else {
+            Micros::NEVER
+        }
+    }
+
+    /// Bytes waiting for the host link.
+    #[must_use]
+    pub fn outgoing(&self) -> &[u8] {
+        self.outbox.waiting()
+    }
+
+    /// The first `n` waiting bytes have been written.
+    pub fn sent(&mut self, n: usize) {
+        self.outbox.written(n);
+    }
+
+    /// What has been counted so far.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        Statistics {
+            link: *self.link.counters(),
+            ..self.statistics
+        }
+    }
+
+    fn send(&mut self, message: &Message<N, C, F, W>) {
+        self.link.send(message, &mut self.outbox);
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        self.statistics.faults = self.statistics.faults.saturating_add(1);
+        self.send(&Message::Fault(fault));
+    }
+
+    fn take(&mut self, now: Micros, message: Message<N, C, F, W>) {
+        if let Message::Hello(host) = message {
+            self.greet(now, host);
+            return;
+        }
+        if !self.open {
+            self.fault(Fault::NoHello);
+            return;
+        }
+        let result = match message {
+            Message::Hello(_) | Message::Heartbeat(_) => Ok(()),
+            Message::Vocabulary(part) => self.loading.take_vocabulary(&part).map(|done| {
+                self.pairing.clear();
+                self.loaded(done);
+            }),
+            Message::Scene(part) => self.loading.take_scene(part).map(|done| self.loaded(done)),
+            Message::Configure(configuration) => self.configure(configuration),
+            Message::Sentence(sentence) => self.observe(now, sentence),
+            Message::Answer(answer) => self.answer(now, answer),
+            Message::Robot(status) => {
+                self.moving = matches!(status.state, RobotState::Running(_));
+                Ok(())
+            }
+            Message::AskStatistics => {
+                self.send(&Message::Statistics(self.statistics()));
+                Ok(())
+            }
+            Message::Loaded(_)
+            | Message::Decision(_)
+            | Message::Why(_)
+            | Message::WhyActions(_)
+            | Message::Fault(_)
+            | Message::Statistics(_) => Err(Fault::NotForUnit),
+        };
+        if let Err(fault) = result {
+            self.fault(fault);
+        }
+    }
+
+    /// Opens a conversation: everything of an earlier one is forgotten.
+    fn greet(&mut self, now: Micros, host: Hello) {
+        self.outbox.clear();
+        self.loading = Loading::new();
+        self.pairing.clear();
+        self.configuration = Configuration::DEFAULT;
+        self.moving = false;
+        self.open = (host.version, host.schema) == (VERSION, SCHEMA);
+        self.beat = now.after(HEARTBEAT);
+        self.send(&Message::Hello(Hello {
+            version: VERSION,
+            schema: SCHEMA,
+            boot: self.boot,
+            capacities: Self::capacities(),
+        }));
+        if !self.open {
+            self.fault(Fault::Schema {
+                unit: (VERSION, SCHEMA),
+                host: (host.version, host.schema),
+            });
+        }
+    }
+
+    fn configure(&mut self, configuration: Configuration) -> Result<(), Fault> {
+        configuration
+            .profile
+            .check()
+            .map_err(Fault::Configuration)?;
+        self.configuration = configuration;
+        self.loaded(Some(Loaded::Configuration));
+        Ok(())
+    }
+
+    fn loaded(&mut self, what: Option<Loaded>) {
+        if let Some(what) = what {
+            self.send(&Message::Loaded(what));
+        }
+    }
+}
