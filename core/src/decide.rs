@@ -184,50 +184,55 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
 
     fn doubt(&self, intent: &Intent<C>) -> Doubt {
         let word = self.action();
-        let judgement = &word.judgement;
-        let heard_best = crate::math::argmax(
-            self.trace
-                .heard
-                .get(..usize::from(word.options))
-                .unwrap_or(&[]),
-        );
-        let heard = heard_best
-            .and_then(|i| self.trace.heard.get(i))
+        let heard = self
+            .trace
+            .heard
+            .get(..usize::from(word.options))
+            .unwrap_or(&[]);
+        let heard_best = crate::math::argmax(heard);
+        let most = heard_best
+            .and_then(|i| heard.get(i))
             .copied()
             .unwrap_or(0.0);
         let left = self.left(intent.action);
-        if self.profile.guarded && left <= heard * ABSENT_BELOW {
-            return self
-                .why_not(heard_best)
-                .map_or(Doubt::Everything, Doubt::Ask);
-        }
-        if judgement.clear == 0 && judgement.unclear == 0 {
-            return Doubt::Everything;
-        }
-        let asked = |reason| Doubt::Ask(self.question(Category::ACTION, reason));
-        if judgement.clear == 0 {
-            return asked(Reason::NoneClear);
-        }
-        let several = judgement.clear.count_ones() > 1
-            && self.profile.several_clear == SeveralClear::Ask
-            && self.profile.threshold != Threshold::None;
-        if several {
-            return asked(Reason::SeveralClear);
-        }
-        if judgement.lead <= self.profile.lead {
-            return asked(Reason::TooClose);
-        }
-        if let Some(question) = self.parameter_doubt(intent) {
-            return Doubt::Ask(question);
-        }
         // A flat action word gives every action 1 / n; one left with less than half of that by the
         // penalties stands out only because the others are worse.
         let flat = 1.0 / f32::from(word.options.max(1));
-        if self.profile.guarded && self.profile.threshold.is_relative() && left < 0.5 * flat {
-            let question = self.why_not(heard_best);
-            return question.map_or_else(|| asked(Reason::Doubtful), Doubt::Ask);
+        let relative = self.profile.threshold.is_relative();
+        let weak = self.profile.guarded && relative && left < 0.5 * flat;
+        let nothing = self.profile.guarded && left <= most * ABSENT_BELOW;
+        if (weak || nothing)
+            && let Some(question) = self.why_not(heard_best)
+        {
+            return Doubt::Ask(question);
         }
-        Doubt::None
+        if nothing {
+            return Doubt::Everything;
+        }
+        match self.action_doubt(&word.judgement, weak) {
+            Err(doubt) => doubt,
+            Ok(()) => self.parameter_doubt(intent).map_or(Doubt::None, Doubt::Ask),
+        }
+    }
+
+    /// What speaks against the best action, its parameters aside.
+    fn action_doubt(&self, judgement: &Judgement, weak: bool) -> Result<(), Doubt> {
+        let asks_about_several = self.profile.several_clear == SeveralClear::Ask
+            && self.profile.threshold != Threshold::None;
+        let reason = if judgement.clear == 0 && judgement.unclear == 0 {
+            return Err(Doubt::Everything);
+        } else if judgement.clear == 0 {
+            Reason::NoneClear
+        } else if judgement.clear.count_ones() > 1 && asks_about_several {
+            Reason::SeveralClear
+        } else if judgement.lead <= self.profile.lead {
+            Reason::TooClose
+        } else if weak {
+            Reason::Doubtful
+        } else {
+            return Ok(());
+        };
+        Err(Doubt::Ask(self.question(Category::ACTION, reason)))
     }
 
     /// What the penalties left of an action's merged likelihood.

@@ -150,6 +150,15 @@ impl Profile {
         ..Self::PAPER
     };
 
+    /// The paper's full model with its fixed thresholds, which were tuned for the mean of two
+    /// modalities' words; a product wants weights of 1.
+    pub const FIXED: Self = Self {
+        penalised: false,
+        threshold: Threshold::FIXED,
+        weights: [0.5; MODALITIES],
+        ..Self::PAPER
+    };
+
     /// The authors' public implementation with entropy thresholds (METHOD, section 5): `merge` is
     /// `Mul` for its "entropy" and `Add` for its "entropy_add_2".
     #[must_use]
@@ -281,6 +290,7 @@ mod tests {
         }
         assert_eq!(Profile::PAPER.check(), Ok(()));
         assert_eq!(Profile::BASELINE.check(), Ok(()));
+        assert_eq!(Profile::FIXED.check(), Ok(()));
         assert_eq!(
             Profile::reference_fixed(Model::M1, Merge::Add).weight(LANGUAGE),
             0.495
