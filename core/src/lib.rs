@@ -40,6 +40,7 @@ pub mod decide;
 pub mod entropy;
 pub mod feasibility;
 pub mod fuse;
+pub mod gesture;
 pub mod intent;
 pub mod judgement;
 pub mod math;

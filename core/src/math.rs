@@ -17,6 +17,18 @@ pub fn exp(x: f32) -> f32 {
     libm::expf(x)
 }
 
+/// The square root, rounded as IEEE 754 asks; a negative argument gives NaN.
+#[must_use]
+pub fn sqrt(x: f32) -> f32 {
+    libm::sqrtf(x)
+}
+
+/// The angle of the point (`x`, `y`) from the x axis, -pi..=pi.
+#[must_use]
+pub fn atan2(y: f32, x: f32) -> f32 {
+    libm::atan2f(y, x)
+}
+
 /// `x` if it lies in 0..=1; NaN and everything below 0 give 0, everything above gives 1.
 #[must_use]
 pub fn clamp_unit(x: f32) -> f32 {

@@ -1,0 +1,407 @@
+//! The form of a [`HandFrame`] on a sensor's serial line: 88 bytes, 94 with its framing, so that 120
+//! frames/s take 11.3 kB/s and fit a line of 115,200 baud.
+//!
+//! Little end first:
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 0 | bits 0..=4: which fingers are followed, thumb first; bit 5: right hand; bit 6: there is a hand; bit 7: 1, this version |
+//! | 1..5 | time, us, u32, wraps |
+//! | 5, 6, 7 | grab, pinch, confidence, each u8 / 255 |
+//! | 8..14 | palm x, y, z, i16 of 0.1 mm |
+//! | 14..20 | velocity x, y, z, i16 of 1 mm/s |
+//! | 20..23 | normal x, y, z, i8 / 127 |
+//! | 23..26 | direction x, y, z, i8 / 127 |
+//! | 26..88 | 45 numbers of 11 bits, two's complement, of 0.1 mm, lowest bit first: for each finger knuckle - palm, middle - knuckle, tip - middle, each x, y, z; one bit stays 0 |
+//!
+//! Parts of a hand that is not there, or of a finger that is not followed, are 0 and ignored. Around
+//! it goes the framing of the host link ([`crate::protocol::stuffing`]): CRC-32, COBS, a zero byte.
+
+use postcard::ser_flavors::Flavor;
+
+use super::frame::{FINGERS, Finger, FrameError, HandFrame, Part, Side};
+use crate::protocol::stuffing::{self, FrameReader, FrameWriter, Outbox};
+
+/// Bytes of a frame before framing.
+pub const PAYLOAD: usize = 88;
+
+/// Bytes of a frame with CRC, stuffing and end.
+pub const FRAMED: usize = 94;
+
+/// Bytes of the payload with its CRC, which a receiver must hold.
+const HELD: usize = PAYLOAD + 4;
+
+const BITS: u32 = 11;
+const HALF: i32 = 1 << (BITS - 1);
+const THERE: u8 = 1 << 6;
+const RIGHT: u8 = 1 << 5;
+const VERSION: u8 = 1 << 7;
+
+/// What one frame of a sensor tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "without a heap there is nowhere to put the larger one"
+)]
+pub enum Sample {
+    /// The sensor sees this hand.
+    Hand(HandFrame),
+    /// The sensor sees no hand at this time (us of its clock).
+    Nothing(u32),
+}
+
+/// Why bytes gave no [`Sample`], or a sample no bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WireError {
+    /// The framing is broken: bytes were lost, the speed of the line is wrong, or the other end
+    /// speaks something else.
+    Framing(stuffing::FrameError),
+    /// Not 88 bytes.
+    Length(u8),
+    /// Another version of this form; the first byte is given.
+    Version(u8),
+    /// What the frame says cannot be.
+    Frame(FrameError),
+}
+
+/// Puts a sample into its 88 bytes.
+///
+/// # Errors
+/// [`WireError::Frame`] for a frame that fails [`HandFrame::check`] or whose joints lie more than
+/// 102.3 mm apart along an axis ([`FrameError::OutOfRange`]), as those of no hand do.
+pub fn encode(sample: &Sample) -> Result<[u8; PAYLOAD], WireError> {
+    let mut out = Writer {
+        bytes: [0; PAYLOAD],
+        at: 0,
+    };
+    let frame = match sample {
+        Sample::Nothing(time) => {
+            out.bits(u32::from(VERSION), 8);
+            out.bits(*time, 32);
+            return Ok(out.bytes);
+        }
+        Sample::Hand(frame) => frame,
+    };
+    frame.check().map_err(WireError::Frame)?;
+    let mut header = VERSION | THERE;
+    if frame.side == Side::Right {
+        header |= RIGHT;
+    }
+    for (i, finger) in frame.fingers.iter().enumerate() {
+        header |= u8::from(finger.is_some()).wrapping_shl(i as u32);
+    }
+    out.bits(u32::from(header), 8);
+    out.bits(frame.time, 32);
+    for share in [frame.grab, frame.pinch, frame.confidence] {
+        out.bits(round(share * 255.0) as u32, 8);
+    }
+    let palm = frame.palm.map(tenths);
+    for n in palm.into_iter().chain(frame.velocity.map(round)) {
+        out.bits(n as u32, 16);
+    }
+    for n in frame.normal.into_iter().chain(frame.direction) {
+        out.bits(round(n * 127.0).clamp(-127, 127) as u32, 8);
+    }
+    for (finger, number) in frame.fingers.iter().zip(0..) {
+        let mut from = palm;
+        let finger = finger.as_ref();
+        for joint in [
+            finger.map(|f| f.knuckle),
+            finger.map(|f| f.middle),
+            finger.map(|f| f.tip),
+        ] {
+            let to = joint.map_or(from, |point| point.map(tenths));
+            for (a, b) in to.into_iter().zip(from) {
+                let step = a.wrapping_sub(b);
+                if !(-HALF..HALF).contains(&step) {
+                    return Err(WireError::Frame(FrameError::OutOfRange(Part::Finger(
+                        number,
+                    ))));
+                }
+                out.bits(step as u32, BITS);
+            }
+            from = to;
+        }
+    }
+    Ok(out.bytes)
+}
+
+/// Puts a sample with its framing behind what waits in `out`.
+///
+/// # Errors
+/// That of [`encode`], or [`stuffing::FrameError::Oversized`] when `out` is full; nothing is
+/// written then.
+pub fn send<const OUT: usize>(sample: &Sample, out: &mut Outbox<OUT>) -> Result<(), WireError> {
+    let payload = encode(sample)?;
+    let full = |_| WireError::Framing(stuffing::FrameError::Oversized);
+    let mut writer = FrameWriter::new(out).map_err(full)?;
+    writer.try_extend(&payload).map_err(full)?;
+    writer.finalize().map_err(full)
+}
+
+/// Reads a sample from its 88 bytes.
+///
+/// # Errors
+/// [`WireError`] for anything that [`encode`] does not give.
+pub fn decode(bytes: &[u8]) -> Result<Sample, WireError> {
+    let length = || WireError::Length(u8::try_from(bytes.len()).unwrap_or(u8::MAX));
+    let mut input = Reader {
+        bytes: bytes.try_into().map_err(|_| length())?,
+        at: 0,
+    };
+    let header = input.bits(8) as u8;
+    if header & VERSION == 0 {
+        return Err(WireError::Version(header));
+    }
+    let time = input.bits(32);
+    if header & THERE == 0 {
+        return Ok(Sample::Nothing(time));
+    }
+    let [grab, pinch, confidence] = core::array::from_fn(|_| input.bits(8) as f32 / 255.0);
+    let palm: [i32; 3] = core::array::from_fn(|_| input.signed(16));
+    let velocity = core::array::from_fn(|_| input.signed(16) as f32);
+    let normal = core::array::from_fn(|_| input.signed(8) as f32 / 127.0);
+    let direction = core::array::from_fn(|_| input.signed(8) as f32 / 127.0);
+    let mut fingers = [None; FINGERS];
+    for (i, finger) in fingers.iter_mut().enumerate() {
+        let mut at = palm;
+        let [knuckle, middle, tip] = core::array::from_fn(|_| {
+            at = at.map(|n| n.wrapping_add(input.signed(BITS)));
+            at.map(|n| n as f32 / 10.0)
+        });
+        if header.wrapping_shr(i as u32) & 1 == 1 {
+            *finger = Some(Finger {
+                knuckle,
+                middle,
+                tip,
+            });
+        }
+    }
+    let frame = HandFrame {
+        time,
+        side: if header & RIGHT == 0 {
+            Side::Left
+        } else {
+            Side::Right
+        },
+        confidence,
+        grab,
+        pinch,
+        palm: palm.map(|n| n as f32 / 10.0),
+        velocity,
+        normal,
+        direction,
+        fingers,
+    };
+    frame.check().map_err(WireError::Frame)?;
+    Ok(Sample::Hand(frame))
+}
+
+/// The sensor's end of a serial line: bytes in any chunking become samples.
+#[derive(Debug, Default)]
+pub struct SensorLine {
+    reader: FrameReader<HELD>,
+}
+
+impl SensorLine {
+    /// At the beginning of a frame.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            reader: FrameReader::new(),
+        }
+    }
+
+    /// Takes one byte, and gives what it completes.
+    pub fn push(&mut self, byte: u8) -> Option<Result<Sample, WireError>> {
+        Some(match self.reader.push(byte)? {
+            Ok(payload) => decode(payload),
+            Err(error) => Err(WireError::Framing(error)),
+        })
+    }
+}
+
+/// Tenths of a millimetre; a checked coordinate has at most 32,767 of them.
+fn tenths(x: f32) -> i32 {
+    round(x * 10.0)
+}
+
+/// The nearest whole number, halves away from 0; what does not fit saturates.
+fn round(x: f32) -> i32 {
+    (x + if x < 0.0 { -0.5 } else { 0.5 }) as i32
+}
+
+/// Appends numbers of any width, lowest bit first.
+struct Writer {
+    bytes: [u8; PAYLOAD],
+    at: usize,
+}
+
+impl Writer {
+    fn bits(&mut self, value: u32, width: u32) {
+        for i in 0..width {
+            let bit = value.wrapping_shr(i) as u8 & 1;
+            if let Some(byte) = self.bytes.get_mut(self.at / 8) {
+                *byte |= bit.wrapping_shl((self.at % 8) as u32);
+            }
+            self.at = self.at.wrapping_add(1);
+        }
+    }
+}
+
+/// Takes numbers of any width, lowest bit first; zeros beyond the end.
+struct Reader<'a> {
+    bytes: &'a [u8; PAYLOAD],
+    at: usize,
+}
+
+impl Reader<'_> {
+    /// `width` of at most 32 bits. Eight bytes around the place hold any such number.
+    fn bits(&mut self, width: u32) -> u32 {
+        let mut window = 0_u64;
+        let bytes = self.bytes.iter().skip(self.at / 8).take(5);
+        for (byte, place) in bytes.zip((0_u32..).step_by(8)) {
+            window |= u64::from(*byte).wrapping_shl(place);
+        }
+        let value = window.wrapping_shr((self.at % 8) as u32) as u32;
+        self.at = self.at.wrapping_add(width as usize);
+        value & u32::MAX.wrapping_shr(32_u32.wrapping_sub(width))
+    }
+
+    fn signed(&mut self, width: u32) -> i32 {
+        let unused = 32_u32.wrapping_sub(width);
+        (self.bits(width).wrapping_shl(unused) as i32).wrapping_shr(unused)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gesture::vector::{Vector, add};
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    fn point(span: f32) -> impl Strategy<Value = Vector> {
+        prop::array::uniform3((-span * 10.0) as i32..(span * 10.0) as i32)
+            .prop_map(|p| p.map(|n| n as f32 / 10.0))
+    }
+
+    prop_compose! {
+        fn frames()(
+            palm in point(2900.0),
+            velocity in prop::array::uniform3(-32_767_i32..=32_767),
+            time in any::<u32>(),
+            right in any::<bool>(),
+            shares in prop::array::uniform3(0_u8..=255),
+            fingers in prop::array::uniform5(prop::option::of((point(102.0), point(102.0), point(102.0)))),
+        ) -> HandFrame {
+            let [grab, pinch, confidence] = shares.map(|n| f32::from(n) / 255.0);
+            HandFrame {
+                time,
+                side: if right { Side::Right } else { Side::Left },
+                confidence,
+                grab,
+                pinch,
+                palm,
+                velocity: velocity.map(|v| v as f32),
+                normal: [0.0, -1.0, 0.0],
+                direction: [1.0, 0.0, 0.0],
+                fingers: fingers.map(|f| f.map(|(a, b, c)| {
+                    let knuckle = add(palm, a);
+                    let middle = add(knuckle, b);
+                    Finger { knuckle, middle, tip: add(middle, c) }
+                })),
+            }
+        }
+    }
+
+    /// Equal to the tenth of a millimetre that the wire keeps.
+    fn same(a: &HandFrame, b: &HandFrame) -> bool {
+        let points = |f: &HandFrame| -> Vec<i32> {
+            let fingers = f.fingers.iter().flatten();
+            core::iter::once(f.palm)
+                .chain(fingers.flat_map(|f| [f.knuckle, f.middle, f.tip]))
+                .flatten()
+                .map(tenths)
+                .collect()
+        };
+        let rest = |f: &HandFrame| HandFrame {
+            palm: [0.0; 3],
+            fingers: f.fingers.map(|f| f.map(|_| Finger::default())),
+            ..*f
+        };
+        points(a) == points(b) && rest(a) == rest(b)
+    }
+
+    fn framed(sample: &Sample) -> Vec<u8> {
+        let mut out = Outbox::<FRAMED>::new();
+        send(sample, &mut out).unwrap();
+        out.waiting().to_vec()
+    }
+
+    proptest! {
+        #[test]
+        fn a_frame_comes_back_to_the_tenth_of_a_millimetre(frame in frames()) {
+            let bytes = framed(&Sample::Hand(frame));
+            prop_assert_eq!(bytes.len(), FRAMED);
+            let mut line = SensorLine::new();
+            let got: Vec<_> = bytes.iter().filter_map(|b| line.push(*b)).collect();
+            let [Ok(Sample::Hand(back))] = got[..] else { panic!("{got:?}") };
+            prop_assert!(same(&frame, &back), "{:?} {:?}", frame, back);
+        }
+
+        #[test]
+        fn any_bytes_are_survived_and_the_next_frame_is_read(
+            noise in prop::collection::vec(any::<u8>(), 0..400),
+            frame in frames(),
+        ) {
+            let mut line = SensorLine::new();
+            let mut bytes = noise;
+            bytes.push(0);
+            bytes.extend(framed(&Sample::Hand(frame)));
+            let last = bytes.iter().filter_map(|b| line.push(*b)).last();
+            prop_assert!(matches!(last, Some(Ok(Sample::Hand(_)))));
+        }
+
+        #[test]
+        fn any_payload_decodes_to_a_sound_frame_or_a_typed_error(
+            bytes in prop::collection::vec(any::<u8>(), PAYLOAD..=PAYLOAD),
+        ) {
+            if let Ok(Sample::Hand(frame)) = decode(&bytes) {
+                prop_assert_eq!(frame.check(), Ok(()));
+            }
+        }
+    }
+
+    #[test]
+    fn no_hand_is_a_sample_too() {
+        let nothing = Sample::Nothing(0xdead_beef);
+        assert_eq!(decode(&encode(&nothing).unwrap()), Ok(nothing));
+        assert_eq!(framed(&nothing).len(), FRAMED);
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_by_name() {
+        assert_eq!(decode(&[0x80; 87]), Err(WireError::Length(87)));
+        assert_eq!(decode(&[0x12; 88]), Err(WireError::Version(0x12)));
+        let mut far = HandFrame {
+            normal: [0.0, -1.0, 0.0],
+            direction: [0.0, 0.0, -1.0],
+            ..HandFrame::default()
+        };
+        far.fingers[2] = Some(Finger {
+            tip: [0.0, 102.4, 0.0],
+            ..Finger::default()
+        });
+        let error = WireError::Frame(FrameError::OutOfRange(Part::Finger(2)));
+        assert_eq!(encode(&Sample::Hand(far)), Err(error));
+        far.fingers[2] = None;
+        far.grab = f32::NAN;
+        let error = WireError::Frame(FrameError::NotFinite(Part::Grab));
+        assert_eq!(encode(&Sample::Hand(far)), Err(error));
+        let mut full = Outbox::<90>::new();
+        let error = WireError::Framing(stuffing::FrameError::Oversized);
+        assert_eq!(send(&Sample::Nothing(0), &mut full), Err(error));
+        assert!(full.waiting().is_empty());
+    }
+}
