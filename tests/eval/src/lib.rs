@@ -1,0 +1,17 @@
+//! The experiments of "Tell and show" (Vanc, Skoviera, Stepanova 2024), run with Deictic's core.
+//!
+//! ```text
+//! vocab.json ─> Catalogue ─┐
+//! *.jsonl.gz ─> Set ───────┴─> Prepared ─> deictic_core::fuse ─> parity, score
+//! ```
+//!
+//! No decision depends on the order in which a file lists things: the core folds over the scene and
+//! looks things up by option.
+
+pub mod catalogue;
+pub mod dataset;
+pub mod order;
+pub mod parity;
+pub mod reading;
+pub mod record;
+pub mod situation;

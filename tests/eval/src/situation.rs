@@ -1,0 +1,118 @@
+//! A sample in the core's own types.
+
+use deictic_core::board;
+use deictic_core::category::Category;
+use deictic_core::fuse::Situation;
+
+use crate::catalogue::Catalogue;
+use crate::order::Order;
+use crate::record::{CATEGORIES, Record, Thing};
+
+/// In which form the core sees a feature of a thing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum FeatureForm {
+    /// As 0 or 1, as the reference reads it.
+    #[default]
+    Sure,
+    /// As the likelihood in the file. In the reference's sets `stackable` falls with roundness as a
+    /// likelihood and rises with it as a truth value, so stacking suffers.
+    Graded,
+}
+
+/// A sample that the core can decide on.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    scene: board::Scene,
+    observations: board::Observations,
+}
+
+impl Prepared {
+    /// Translates a sample, options in the given order, as long as `vocabulary` was made of the
+    /// same catalogue and order.
+    ///
+    /// # Errors
+    /// The core's own, in words, for a sample that does not fit the vocabulary.
+    pub fn new(
+        record: &Record,
+        catalogue: &Catalogue,
+        order: &Order,
+        vocabulary: &board::Vocabulary,
+        form: FeatureForm,
+    ) -> anyhow::Result<Self> {
+        let mut scene = board::Scene::new(0);
+        for category in 1..CATEGORIES {
+            for thing in record.things(category) {
+                let entity = entity(thing, category, catalogue, order, form);
+                scene
+                    .push(entity, vocabulary)
+                    .map_err(|e| anyhow::anyhow!("the core refuses the scene: {e:?}"))?;
+            }
+        }
+        let mut observations = board::Observations::new();
+        for (modality, words) in (0_u8..).zip(&record.words) {
+            let mut sentence = board::Sentence::new(modality);
+            for (c, word) in words.iter().enumerate() {
+                let (Some(word), Some(category)) = (word, Category::from_index(c)) else {
+                    continue;
+                };
+                let likelihoods: Vec<f32> = order
+                    .places(c)
+                    .iter()
+                    .map(|&option| word[usize::from(option)])
+                    .collect();
+                board::Word::certain(category, &likelihoods)
+                    .and_then(|word| sentence.push(word))
+                    .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))?;
+            }
+            observations
+                .insert(sentence)
+                .map_err(|e| anyhow::anyhow!("the core refuses a sentence: {e:?}"))?;
+        }
+        Ok(Self {
+            scene,
+            observations,
+        })
+    }
+
+    /// What the core decides on.
+    #[must_use]
+    pub fn with<'a>(
+        &'a self,
+        vocabulary: &'a board::Vocabulary,
+    ) -> Situation<
+        'a,
+        { board::OPTIONS },
+        { board::CATEGORIES },
+        { board::FEATURES },
+        { board::ENTITIES },
+        { board::WORDS },
+    > {
+        Situation {
+            vocabulary,
+            scene: &self.scene,
+            observations: &self.observations,
+        }
+    }
+}
+
+fn entity(
+    thing: &Thing,
+    category: usize,
+    catalogue: &Catalogue,
+    order: &Order,
+    form: FeatureForm,
+) -> board::Entity {
+    let features = thing.features.iter().map(|f| match form {
+        FeatureForm::Sure => f32::from(u8::from(f.holds)),
+        FeatureForm::Graded => f.likelihood,
+    });
+    let types = (0_u8..)
+        .take(catalogue.types.len())
+        .map(|t| f32::from(u8::from(thing.kind == Some(t))));
+    board::Entity {
+        category: Category::from_index(category).unwrap_or(Category::OBJECT),
+        option: order.inside(category, thing.option),
+        position: [0.0; 3],
+        features: features.chain(types).collect(),
+    }
+}
