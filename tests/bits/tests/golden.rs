@@ -1,0 +1,70 @@
+//! The hash over every figure of 60,000 decisions is the committed one, in every build.
+
+use deictic_bits::{Bench, GOLDEN, SAMPLES, START};
+use deictic_core::decide::Outcome;
+use deictic_core::profile::Profile;
+
+#[test]
+fn every_bit_is_the_golden_one() {
+    let hash = Bench::new().hash(START, 0..SAMPLES);
+    assert_eq!(
+        hash, GOLDEN,
+        "{hash:#018x}: some decision has changed in at least one bit; if that is meant, this is the \
+         new GOLDEN"
+    );
+}
+
+#[test]
+fn portions_give_what_the_whole_gives() {
+    let mut bench = Bench::new();
+    let whole = bench.hash(START, 0..120);
+    let portions = (0..12).fold(START, |hash, k| bench.hash(hash, 10 * k..10 * (k + 1)));
+    assert_eq!(whole, portions);
+}
+
+#[test]
+fn the_samples_reach_every_outcome() {
+    let mut bench = Bench::new();
+    let (mut done, mut asked, mut repeated) = (0, 0, 0);
+    for i in 0..2_000 {
+        bench.sample(i);
+        match bench.decide(&Profile::PAPER).unwrap().outcome {
+            Outcome::Execute(_) => done += 1,
+            Outcome::Ask(_) => asked += 1,
+            Outcome::Repeat => repeated += 1,
+        }
+        let finite = bench
+            .trace()
+            .categories()
+            .iter()
+            .all(|w| w.merged.iter().chain(&w.h).all(|x| x.is_finite()));
+        assert!(finite, "sample {i}");
+    }
+    assert!(
+        done > 100 && asked > 100 && repeated > 10,
+        "{done} {asked} {repeated}"
+    );
+}
+
+#[test]
+fn the_case_of_the_budget_has_every_word() {
+    let mut bench = Bench::new();
+    bench.m3_case();
+    assert!(bench.decide(&Profile::PAPER).unwrap().best.is_some());
+    let words: Vec<(u8, f32)> = bench
+        .trace()
+        .categories()
+        .iter()
+        .map(|w| (w.options, w.present))
+        .collect();
+    assert_eq!(words[..3], [(9, 1.0), (7, 1.0), (4, 1.0)]);
+}
+
+#[test]
+fn a_bench_fits_beside_a_unit() {
+    assert!(
+        size_of::<Bench>() <= 8 * 1024,
+        "{} bytes",
+        size_of::<Bench>()
+    );
+}
