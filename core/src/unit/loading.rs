@@ -89,7 +89,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
     /// # Errors
     /// A [`Fault`]: there is no vocabulary, the scene is not newer, the part is out of order, or a
     /// thing cannot be. The old scene stays in force.
-    pub fn take_scene(&mut self, part: ScenePart<F>) -> Result<Option<Loaded>, Fault> {
+    pub fn take_scene(&mut self, part: &ScenePart<F>) -> Result<Option<Loaded>, Fault> {
         let vocabulary = self.vocabulary.as_ref().ok_or(Fault::NoVocabulary)?;
         let held = self.scene.as_ref().map_or(0, Scene::version);
         if part.version <= held {
@@ -108,9 +108,9 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
             });
         }
         in_order(self.arriving.entities().len(), part.first)?;
-        for entity in part.entities {
+        for entity in &part.entities {
             self.arriving
-                .push(entity, vocabulary)
+                .push(entity.clone(), vocabulary)
                 .map_err(Fault::Scene)?;
         }
         if self.arriving.entities().len() < usize::from(part.total) {

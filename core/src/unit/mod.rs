@@ -9,9 +9,11 @@
 pub mod loading;
 pub mod pairing;
 
+pub use crate::protocol::message::Statistics;
+
 use crate::protocol::link::{Counters, Link, Received};
 use crate::protocol::message::{
-    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, Message, RobotState, Statistics,
+    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, Message, RobotState,
 };
 use crate::protocol::stuffing::Outbox;
 use crate::protocol::{SCHEMA, VERSION};
@@ -87,6 +89,11 @@ impl<
                 faults: 0,
             },
         }
+    }
+
+    /// Tells this start from others, for a unit in a static whose `boot` is known at run time only.
+    pub fn set_boot(&mut self, boot: u32) {
+        self.boot = boot;
     }
 
     /// What this build holds.
@@ -194,7 +201,7 @@ impl<
                 self.pairing.clear();
                 self.loaded(done);
             }),
-            Message::Scene(part) => self.loading.take_scene(part).map(|done| self.loaded(done)),
+            Message::Scene(part) => self.loading.take_scene(&part).map(|done| self.loaded(done)),
             Message::Configure(configuration) => self.configure(configuration),
             Message::Sentence(sentence) => self.observe(now, sentence),
             Message::Answer(answer) => self.answer(now, answer),
