@@ -1,0 +1,27 @@
+//! What the core found, in words: errors with what to do about them, questions to the person, and
+//! the figures behind a decision.
+
+mod errors;
+mod question;
+pub mod reasons;
+
+pub use errors::{fuse_error, profile_error, scene_error, sentence_error, vocabulary_error};
+pub use question::{because, intent, question};
+
+/// An error in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// What is wrong.
+    pub what: String,
+    /// What to do about it.
+    pub remedy: String,
+}
+
+impl Advice {
+    pub(crate) fn new(what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self {
+            what: what.into(),
+            remedy: remedy.into(),
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The host bridge of the gesture unit: vocabulary and scene in words, the link to the unit, and the
+//! robot that does what the unit decides.
+
+pub mod diagnose;
+pub mod explain;
+pub mod vocabulary;
