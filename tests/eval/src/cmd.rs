@@ -1,6 +1,7 @@
 //! One file per subcommand.
 
 mod parity;
+mod score;
 
 use clap::Subcommand;
 
@@ -8,6 +9,7 @@ use clap::Subcommand;
 #[derive(Subcommand)]
 pub enum Command {
     Parity(parity::Parity),
+    Score(score::Score),
 }
 
 impl Command {
@@ -15,6 +17,7 @@ impl Command {
     pub fn run(self) -> anyhow::Result<()> {
         match self {
             Self::Parity(command) => command.run(),
+            Self::Score(command) => command.run(),
         }
     }
 }

@@ -8,10 +8,14 @@
 //! No decision depends on the order in which a file lists things: the core folds over the scene and
 //! looks things up by option.
 
+pub mod answer;
 pub mod catalogue;
 pub mod dataset;
+pub mod interval;
 pub mod order;
 pub mod parity;
 pub mod reading;
 pub mod record;
+pub mod score;
 pub mod situation;
+pub mod variant;

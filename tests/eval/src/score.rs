@@ -1,0 +1,224 @@
+//! How often a variant is right, wrong or undecided on a data set.
+
+use deictic_core::board;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::answer::{Answer, Judge};
+use crate::catalogue::Catalogue;
+use crate::dataset::Set;
+use crate::interval::wilson;
+use crate::order::Order;
+use crate::record::Triple;
+use crate::situation::{FeatureForm, Prepared};
+use crate::variant::{ProfileName, Variant};
+
+/// A data set in the core's types, to be decided by many variants.
+pub struct Field<'a> {
+    catalogue: &'a Catalogue,
+    order: Order,
+    vocabulary: board::Vocabulary,
+    /// The set's name.
+    pub name: String,
+    samples: Vec<(Prepared, Triple)>,
+    habits: ProfileName,
+}
+
+/// Counts over a data set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Samples.
+    pub n: usize,
+    /// The likeliest intent is the one meant.
+    pub triple_argmax: usize,
+    /// Its action is.
+    pub action_argmax: usize,
+    /// What was executed is what was meant.
+    pub triple_decided: usize,
+    /// The settled action is the one meant.
+    pub action_decided: usize,
+    /// Something else than what was meant was executed.
+    pub triple_wrong_executed: usize,
+    /// An action was settled that was not meant.
+    pub action_wrong_executed: usize,
+    /// No action was settled.
+    pub undecided: usize,
+}
+
+impl Tally {
+    /// Counts one answer.
+    pub fn add(&mut self, answer: Answer, truth: Triple) {
+        let is = |b: bool| usize::from(b);
+        self.n += 1;
+        self.triple_argmax += is(answer.likeliest == Some(truth));
+        self.action_argmax += is(answer.likeliest.map(|t| t.action) == Some(truth.action));
+        self.triple_decided += is(answer.executed == Some(truth));
+        self.action_decided += is(answer.action == Some(truth.action));
+        self.triple_wrong_executed += is(answer.executed.is_some_and(|t| t != truth));
+        self.action_wrong_executed += is(answer.action.is_some_and(|a| a != truth.action));
+        self.undecided += is(answer.action.is_none());
+    }
+
+    /// The counts of both.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            n: self.n + other.n,
+            triple_argmax: self.triple_argmax + other.triple_argmax,
+            action_argmax: self.action_argmax + other.action_argmax,
+            triple_decided: self.triple_decided + other.triple_decided,
+            action_decided: self.action_decided + other.action_decided,
+            triple_wrong_executed: self.triple_wrong_executed + other.triple_wrong_executed,
+            action_wrong_executed: self.action_wrong_executed + other.action_wrong_executed,
+            undecided: self.undecided + other.undecided,
+        }
+    }
+
+    /// A count as a percentage.
+    #[must_use]
+    pub fn percent(&self, count: usize) -> f64 {
+        100.0 * count as f64 / self.n.max(1) as f64
+    }
+}
+
+impl<'a> Field<'a> {
+    /// Translates a set for variants of one profile.
+    ///
+    /// # Errors
+    /// Which sample the core refuses, and why.
+    pub fn new(
+        set: &Set,
+        catalogue: &'a Catalogue,
+        habits: ProfileName,
+        form: FeatureForm,
+    ) -> anyhow::Result<Self> {
+        let order = match habits {
+            ProfileName::Paper => None,
+            ProfileName::Reference => Order::of_the_reference(catalogue),
+        }
+        .unwrap_or_else(|| Order::own(catalogue));
+        let vocabulary = catalogue.vocabulary(&order);
+        let samples = set
+            .records
+            .iter()
+            .enumerate()
+            .map(|(i, record)| {
+                let prepared = Prepared::new(record, catalogue, &order, &vocabulary, form)
+                    .map_err(|e| e.context(format!("{}, sample {i}", set.name)))?;
+                Ok((prepared, record.truth))
+            })
+            .collect::<anyhow::Result<_>>()?;
+        Ok(Self {
+            catalogue,
+            order,
+            vocabulary,
+            name: set.name.clone(),
+            samples,
+            habits,
+        })
+    }
+
+    /// Decides all samples, on all cores.
+    ///
+    /// # Errors
+    /// The core's, for settings that cannot be.
+    ///
+    /// # Panics
+    /// When the variant is of another profile than the field was made for.
+    pub fn tally(&self, variant: &Variant) -> anyhow::Result<Tally> {
+        assert_eq!(variant.profile, self.habits, "made for another profile");
+        let settings = variant.settings();
+        let judge = Judge {
+            catalogue: self.catalogue,
+            order: &self.order,
+            vocabulary: &self.vocabulary,
+            habits: self.habits,
+        };
+        self.samples
+            .par_chunks(64)
+            .map(|chunk| {
+                let mut trace = board::Trace::new();
+                let mut tally = Tally::default();
+                for (prepared, truth) in chunk {
+                    let answer = judge
+                        .answer(prepared, &settings, &mut trace)
+                        .map_err(|e| anyhow::anyhow!("{}: the core refuses: {e:?}", self.name))?;
+                    tally.add(answer, *truth);
+                }
+                Ok(tally)
+            })
+            .try_reduce(Tally::default, |a, b| Ok(a.plus(b)))
+    }
+}
+
+/// A tally for readers: percentages with 95 % intervals.
+#[derive(Clone, Debug, Serialize)]
+pub struct Score {
+    /// The set.
+    pub file: String,
+    /// The model, merge, threshold and profile.
+    pub model: String,
+    /// See [`Variant::merge`].
+    pub merge: String,
+    /// See [`Variant::threshold`].
+    pub threshold: String,
+    /// See [`Variant::profile`].
+    pub profile: String,
+    /// Samples.
+    pub n: usize,
+    /// The shares, in percent.
+    #[serde(flatten)]
+    pub shares: Shares<f64>,
+    /// Their 95 % intervals (Wilson), in percent.
+    pub interval_95: Shares<[f64; 2]>,
+}
+
+/// One value per count of a [`Tally`].
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Shares<T> {
+    /// See [`Tally::triple_argmax`].
+    pub triple_argmax: T,
+    /// See [`Tally::action_argmax`].
+    pub action_argmax: T,
+    /// See [`Tally::triple_decided`].
+    pub triple_decided: T,
+    /// See [`Tally::action_decided`].
+    pub action_decided: T,
+    /// See [`Tally::triple_wrong_executed`].
+    pub triple_wrong_executed: T,
+    /// See [`Tally::action_wrong_executed`].
+    pub action_wrong_executed: T,
+    /// See [`Tally::undecided`].
+    pub undecided: T,
+}
+
+impl<T> Shares<T> {
+    fn of(tally: &Tally, value: impl Fn(usize) -> T) -> Self {
+        Self {
+            triple_argmax: value(tally.triple_argmax),
+            action_argmax: value(tally.action_argmax),
+            triple_decided: value(tally.triple_decided),
+            action_decided: value(tally.action_decided),
+            triple_wrong_executed: value(tally.triple_wrong_executed),
+            action_wrong_executed: value(tally.action_wrong_executed),
+            undecided: value(tally.undecided),
+        }
+    }
+}
+
+impl Score {
+    /// Of a tally.
+    #[must_use]
+    pub fn new(file: &str, variant: &Variant, tally: &Tally) -> Self {
+        Self {
+            file: file.to_owned(),
+            model: variant.model.to_string(),
+            merge: variant.merge.to_string(),
+            threshold: variant.threshold.to_string(),
+            profile: variant.profile.to_string(),
+            n: tally.n,
+            shares: Shares::of(tally, |k| tally.percent(k)),
+            interval_95: Shares::of(tally, |k| wilson(k, tally.n)),
+        }
+    }
+}
