@@ -1,1 +1,5 @@
-//! What the behaviour tests of the whole share.
+//! What the behaviour tests of the whole share: a unit on an emulated board, one in this process,
+//! and a host that speaks with either.
+
+pub mod emulated;
+pub mod host;

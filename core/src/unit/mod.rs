@@ -4,7 +4,8 @@
 //! A conversation opens with the host's Hello, which empties the unit: whatever the host relied on
 //! before is loaded anew. Then come vocabulary, scene and configuration ([`loading`]), sentences and
 //! answers ([`pairing`]), and heartbeats both ways. Everything unexpected is answered by a
-//! [`Fault`] and changes nothing.
+//! [`Fault`] and changes nothing. A unit that has restarted answers the first thing it hears with its
+//! own Hello, by which the host knows to open the conversation again.
 
 pub mod loading;
 pub mod pairing;
@@ -192,6 +193,8 @@ impl<
             return;
         }
         if !self.open {
+            // Only a Hello is sure to be taken by a host that goes by an earlier start's numbers.
+            self.introduce();
             self.fault(Fault::NoHello);
             return;
         }
@@ -234,18 +237,22 @@ impl<
         self.moving = false;
         self.open = (host.version, host.schema) == (VERSION, SCHEMA);
         self.beat = now.after(HEARTBEAT);
-        self.send(&Message::Hello(Hello {
-            version: VERSION,
-            schema: SCHEMA,
-            boot: self.boot,
-            capacities: Self::capacities(),
-        }));
+        self.introduce();
         if !self.open {
             self.fault(Fault::Schema {
                 unit: (VERSION, SCHEMA),
                 host: (host.version, host.schema),
             });
         }
+    }
+
+    fn introduce(&mut self) {
+        self.send(&Message::Hello(Hello {
+            version: VERSION,
+            schema: SCHEMA,
+            boot: self.boot,
+            capacities: Self::capacities(),
+        }));
     }
 
     fn configure(&mut self, configuration: Configuration) -> Result<(), Fault> {

@@ -119,6 +119,24 @@ impl Bench {
         fuse(situation, profile, &mut self.trace)
     }
 
+    /// What can be said on the bench.
+    #[must_use]
+    pub fn vocabulary(&self) -> &board::Vocabulary {
+        &self.vocabulary
+    }
+
+    /// What is there on the bench.
+    #[must_use]
+    pub fn scene(&self) -> &board::Scene {
+        &self.scene
+    }
+
+    /// What was said and shown on the bench.
+    #[must_use]
+    pub fn observations(&self) -> &board::Observations {
+        &self.observations
+    }
+
     /// The figures of the last decision.
     #[must_use]
     pub fn trace(&self) -> &board::Trace {
