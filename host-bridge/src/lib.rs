@@ -3,4 +3,8 @@
 
 pub mod diagnose;
 pub mod explain;
+pub mod language;
+pub mod scene;
+pub mod sensor;
+pub mod showing;
 pub mod vocabulary;

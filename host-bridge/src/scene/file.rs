@@ -1,0 +1,198 @@
+//! The scene file as written, and what it says in a vocabulary's terms.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use deictic_core::category::Category;
+use deictic_core::large;
+use deictic_core::scene::SceneError;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::error::SceneProblem as Problem;
+use super::{TABLE, Tabletop};
+use crate::diagnose::FileError;
+use crate::vocabulary::Lexicon;
+
+/// A [`Problem`] with its place in a scene file.
+pub type SceneFileError = Box<FileError<Problem>>;
+
+type Found<T> = Result<T, (Option<Range<usize>>, Problem)>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    vocabulary: Option<PathBuf>,
+    #[serde(default)]
+    object: Vec<Spanned<Thing>>,
+    #[serde(default)]
+    storage: Vec<Spanned<Thing>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Thing {
+    name: Spanned<String>,
+    position: [f32; 3],
+    #[serde(default)]
+    features: BTreeMap<Spanned<String>, Spanned<Likelihood>>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged)]
+enum Likelihood {
+    Certain(bool),
+    Some(f32),
+}
+
+/// A scene file that was read but not yet compared with a vocabulary, as it may name the vocabulary
+/// it is to be read with.
+#[derive(Debug)]
+pub struct SceneFile {
+    name: String,
+    text: String,
+    written: Written,
+}
+
+impl SceneFile {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`SceneFileError`] when it cannot be read or is not of a scene's shape.
+    pub fn read(path: &Path) -> Result<Self, SceneFileError> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|e| FileError::new(&name, "", None, Problem::Unreadable(e)))?;
+        Self::parse(&name, &text)
+    }
+
+    /// The scene that comes with the program.
+    ///
+    /// # Errors
+    /// As [`SceneFile::parse`]; a test holds that there is none.
+    pub fn table() -> Result<Self, SceneFileError> {
+        Self::parse("table.toml", TABLE)
+    }
+
+    /// A scene file called `name` with this `text`.
+    ///
+    /// # Errors
+    /// [`SceneFileError`] when it is not of a scene's shape.
+    pub fn parse(name: &str, text: &str) -> Result<Self, SceneFileError> {
+        let written = toml::from_str(text).map_err(|e| {
+            FileError::new(
+                name,
+                text,
+                e.span(),
+                Problem::Syntax(e.message().to_owned()),
+            )
+        })?;
+        Ok(Self {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            written,
+        })
+    }
+
+    /// The vocabulary file it names, relative to itself.
+    #[must_use]
+    pub fn vocabulary(&self) -> Option<PathBuf> {
+        let named = self.written.vocabulary.as_ref()?;
+        Some(match Path::new(&self.name).parent() {
+            Some(folder) => folder.join(named),
+            None => named.clone(),
+        })
+    }
+
+    /// The things it describes, in a vocabulary's terms.
+    ///
+    /// # Errors
+    /// [`SceneFileError`] with the place of the first thing that is wrong.
+    pub fn things(&self, lexicon: &Lexicon) -> Result<Vec<large::Entity>, SceneFileError> {
+        let mut checked = large::Scene::new(1);
+        let lists = [
+            (Category::OBJECT, "object", &self.written.object),
+            (Category::STORAGE, "storage", &self.written.storage),
+        ];
+        for (category, called, things) in lists {
+            for thing in things {
+                entity(category, called, thing.as_ref(), lexicon)
+                    .and_then(|e| {
+                        let pushed = checked.push(e, lexicon.vocabulary());
+                        pushed.map_err(|e| (Some(place_of(&e, thing)), Problem::Refused(e)))
+                    })
+                    .map_err(|(place, problem)| {
+                        FileError::new(&self.name, &self.text, place, problem)
+                    })?;
+            }
+        }
+        Ok(checked.entities().to_vec())
+    }
+
+    /// The table it describes.
+    ///
+    /// # Errors
+    /// [`SceneFileError`] with the place of the first thing that is wrong.
+    pub fn tabletop(&self, lexicon: &Lexicon) -> Result<Tabletop, SceneFileError> {
+        Tabletop::new(self.things(lexicon)?, lexicon)
+            .map_err(|e| FileError::new(&self.name, &self.text, None, Problem::Refused(e)))
+    }
+}
+
+fn place_of(error: &SceneError, thing: &Spanned<Thing>) -> Range<usize> {
+    match error {
+        SceneError::BadPosition { .. } => thing.span(),
+        _ => thing.as_ref().name.span(),
+    }
+}
+
+fn entity(
+    category: Category,
+    called: &'static str,
+    thing: &Thing,
+    lexicon: &Lexicon,
+) -> Found<large::Entity> {
+    let name = thing.name.as_ref();
+    let Some(option) = lexicon.option(category, name) else {
+        let problem = Problem::UnknownThing {
+            category: called,
+            name: name.clone(),
+            known: lexicon
+                .entries(category)
+                .iter()
+                .map(|e| e.name.clone())
+                .collect(),
+        };
+        return Err((Some(thing.name.span()), problem));
+    };
+    let mut features = heapless::Vec::new();
+    // A lexicon has no more features than the core holds.
+    let _ = features.resize(lexicon.features().len(), 0.0);
+    for (feature, likelihood) in &thing.features {
+        let Some(at) = lexicon.feature(feature.as_ref()) else {
+            let problem = Problem::UnknownFeature {
+                name: feature.as_ref().clone(),
+                known: lexicon.features().to_vec(),
+            };
+            return Err((Some(feature.span()), problem));
+        };
+        let value = match *likelihood.as_ref() {
+            Likelihood::Certain(true) => 1.0,
+            Likelihood::Certain(false) => 0.0,
+            Likelihood::Some(x) if (0.0..=1.0).contains(&x) => x,
+            Likelihood::Some(x) => {
+                return Err((Some(likelihood.span()), Problem::BadLikelihood(x)));
+            }
+        };
+        if let Some(f) = features.get_mut(at) {
+            *f = value;
+        }
+    }
+    Ok(large::Entity {
+        category,
+        option,
+        position: thing.position,
+        features,
+    })
+}
