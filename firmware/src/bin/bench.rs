@@ -1,0 +1,51 @@
+//! What a decision costs on the board: instructions (in QEMU with `-icount shift=10`) and stack. `cargo xtask budget`
+//! reads the lines `instructions NAME COUNT` and `stack NAME BYTES`.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use cortex_m_semihosting::{debug, hprintln};
+use deictic_bits::Bench;
+use deictic_core::profile::{Model, Profile};
+use deictic_firmware::mps2_an386::measure::{Counter, stack_used};
+
+/// Models with the paper's other choices.
+const MODELS: [(&str, Model); 3] = [("m1", Model::M1), ("m2", Model::M2), ("m3", Model::M3)];
+
+#[entry]
+fn main() -> ! {
+    static mut BENCH: Bench = Bench::new();
+    if let Some(core) = cortex_m::Peripherals::take() {
+        let mut counter = Counter::new(core.SYST);
+        BENCH.m3_case();
+        let mut measure = |name: &str, profile: &Profile| {
+            let count = counter.instructions(|| decide(BENCH, profile));
+            hprintln!("instructions {} {}", name, count);
+            let stack = stack_used(|| decide(BENCH, profile));
+            hprintln!("stack {} {}", name, stack);
+        };
+        measure("baseline", &Profile::BASELINE);
+        for (name, model) in MODELS {
+            measure(
+                name,
+                &Profile {
+                    model,
+                    ..Profile::PAPER
+                },
+            );
+        }
+        debug::exit(debug::EXIT_SUCCESS);
+    }
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+/// One decision, its result kept from being optimised away.
+#[inline(never)]
+fn decide(bench: &mut Bench, profile: &Profile) {
+    let decision = bench.decide(black_box(profile));
+    black_box(decision.is_ok());
+}

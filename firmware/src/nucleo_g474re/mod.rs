@@ -1,0 +1,141 @@
+//! NUCLEO-G474RE: an STM32G474RE (Cortex-M4F, 170 MHz, three CAN-FD controllers) with an ST-LINK on board.
+//!
+//! | what | where |
+//! |---|---|
+//! | host link | LPUART1, PA2/PA3, the ST-LINK's virtual COM port, 921600 baud, 8N1 |
+//! | hand sensor | USART1, PC4 (D1) TX, PC5 (D0) RX, 115200 baud, 8N1 |
+//! | CAN | FDCAN1, PA11 RX, PA12 TX, clocked with 24 MHz, off the bus |
+//! | log | defmt over RTT: `cargo run --release` in `firmware/` shows it |
+//!
+//! Registers are used directly, through stm32-metapac: the HALs check their configuration with panics, which an image
+//! without panics cannot hold.
+
+mod clocks;
+mod pins;
+mod uart;
+mod watchdog;
+
+use cortex_m::peripheral::SCB;
+use cortex_m_rt::{ExceptionFrame, exception};
+use deictic_core::time::Micros;
+use deictic_core::unit::Statistics;
+use stm32_metapac::DBGMCU;
+
+use crate::arm::journal::Journal;
+use crate::arm::{clock, fault, guard};
+use crate::{Board, Turn};
+use uart::UartStream;
+use watchdog::Watchdog;
+
+/// Core clock in megahertz.
+pub(crate) const MHZ: u32 = 170;
+const HZ: u32 = MHZ * 1_000_000;
+/// Longest sleep; the watchdog waits 2 s.
+const LONGEST_SLEEP: Micros = Micros::from_millis(100);
+
+/// The running board.
+pub struct NucleoG474Re {
+    link: UartStream,
+    sensor: UartStream,
+    watchdog: Watchdog,
+    boot: u32,
+    journal: Journal,
+}
+
+impl NucleoG474Re {
+    /// Starts clocks, links and watchdog. None if it was called before. A board whose clocks do not start resets, to
+    /// try again.
+    #[must_use]
+    pub fn start() -> Option<Self> {
+        let mut core = cortex_m::Peripherals::take()?;
+        guard::enable(&mut core.MPU);
+        // Keeps the debug probe connected while the core sleeps.
+        DBGMCU.cr().modify(|w| w.set_dbg_sleep(true));
+        let Ok(crystal) = clocks::start() else {
+            SCB::sys_reset()
+        };
+        clock::start(core.SYST);
+        let boot = clocks::random();
+        pins::connect();
+        clocks::supply_can();
+        let link = uart::start_link();
+        let sensor = uart::start_sensor();
+        if !crystal {
+            defmt::warn!("the 24 MHz crystal does not start: CAN is unusable");
+        }
+        if boot.is_none() {
+            defmt::warn!("no random number: a host cannot tell this start from the last");
+        }
+        if let Some(fault) = fault::take_previous() {
+            defmt::warn!("restarted after a fault at {=u32:#010x}", fault.pc);
+        }
+        let boot = boot.unwrap_or(0);
+        defmt::info!("nucleo-g474re started, boot {=u32:#010x}", boot);
+        Some(Self {
+            link,
+            sensor,
+            watchdog: Watchdog::start(),
+            boot,
+            journal: Journal::default(),
+        })
+    }
+
+    /// A number that tells this start from others.
+    #[must_use]
+    pub fn boot(&self) -> u32 {
+        self.boot
+    }
+}
+
+fn has_input() -> bool {
+    uart::LINK.port().has_input() || uart::SENSOR.port().has_input()
+}
+
+impl Board for NucleoG474Re {
+    type Link = UartStream;
+    type Sensor = UartStream;
+
+    fn link(&mut self) -> &mut UartStream {
+        &mut self.link
+    }
+
+    fn sensor(&mut self) -> &mut UartStream {
+        &mut self.sensor
+    }
+
+    fn now(&mut self) -> Micros {
+        clock::now()
+    }
+
+    fn feed(&mut self) {
+        self.watchdog.feed();
+    }
+
+    fn sleep(&mut self, until: Micros) {
+        clock::sleep(until.min(clock::now().after(LONGEST_SLEEP)), has_input);
+    }
+
+    fn log(&mut self, turn: Turn, statistics: Statistics) {
+        self.journal
+            .note(turn, statistics, uart::LINK.port().lost());
+    }
+}
+
+/// No fault can be resumed on this board.
+///
+/// # Safety
+/// None needed; the signature is that of boards that can.
+pub(crate) unsafe fn resume(_frame: &mut ExceptionFrame) -> bool {
+    false
+}
+
+/// After a fault: starts again. The robot has stopped by then, since heartbeats do not come.
+pub(crate) fn stop() -> ! {
+    SCB::sys_reset()
+}
+
+/// The clock security system's, which is off, or a wild jump's.
+#[exception]
+unsafe fn NonMaskableInt() {
+    SCB::sys_reset()
+}

@@ -1,0 +1,72 @@
+//! The boards and how their images are built.
+
+use std::path::PathBuf;
+use std::process::Stdio;
+
+use anyhow::{Context, Result, bail};
+use clap::ValueEnum;
+use serde_json::Value;
+
+use crate::toolchain::Toolchain;
+
+/// A board that the firmware has a module for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Board {
+    /// QEMU's Cortex-M4F, on which tests, demo and budgets run.
+    Mps2An386,
+    /// The real board.
+    NucleoG474re,
+}
+
+impl Board {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Mps2An386, Self::NucleoG474re];
+
+    /// Its cargo feature and the name of its image.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mps2An386 => "mps2-an386",
+            Self::NucleoG474re => "nucleo-g474re",
+        }
+    }
+
+    /// The environment variable through which tests of the whole learn where the image is.
+    pub fn image_variable(self) -> &'static str {
+        match self {
+            Self::Mps2An386 => "DEICTIC_IMAGE_MPS2_AN386",
+            Self::NucleoG474re => "DEICTIC_IMAGE_NUCLEO_G474RE",
+        }
+    }
+}
+
+/// Builds the unit's release image for a board and says where it is.
+pub fn build(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
+    build_image(toolchain, board.name(), board.name())
+}
+
+/// Builds the measuring image for QEMU.
+pub fn build_bench(toolchain: &Toolchain) -> Result<PathBuf> {
+    build_image(toolchain, "bench", "bench")
+}
+
+fn build_image(toolchain: &Toolchain, feature: &str, image: &str) -> Result<PathBuf> {
+    let mut cargo = toolchain.firmware_cargo("build");
+    cargo.args(["--release", "--features", feature, "--bin", image]);
+    cargo.arg("--message-format=json-render-diagnostics");
+    let output = cargo
+        .stderr(Stdio::inherit())
+        .output()
+        .context("cannot start cargo")?;
+    if !output.status.success() {
+        bail!(
+            "the image `{image}` does not build; an undefined `deictic_panic_path_reachable` means that some code can \
+             panic: `cargo tree` and the linker's message above show where to look"
+        );
+    }
+    String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+        .filter(|message| message["target"]["name"] == image)
+        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
+        .with_context(|| format!("cargo built no executable `{image}`"))
+}

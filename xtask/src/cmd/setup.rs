@@ -1,0 +1,44 @@
+use anyhow::{Context, Result};
+use clap::Args;
+
+use crate::process::{find, output};
+use crate::toolchain::{Toolchain, apt_install};
+
+/// Get what is missing: the target or a compiler that can build it, QEMU.
+///
+/// Changes nothing when nothing is missing. Installs Debian packages as root or through sudo and says which. The other
+/// commands call it themselves.
+#[derive(Args)]
+pub struct Setup;
+
+impl Setup {
+    pub fn run(self) -> Result<()> {
+        let toolchain = ensure()?;
+        println!("compiler: {toolchain}");
+        let qemu = output(std::process::Command::new(QEMU).arg("--version")).unwrap_or_default();
+        println!("emulator: {}", qemu.lines().next().unwrap_or("unknown"));
+        match find("defmt-print") {
+            Some(path) => println!("board log: decoded by {}", path.display()),
+            None => println!(
+                "board log: not decoded; optional, `cargo install defmt-print --locked` gets the decoder"
+            ),
+        }
+        println!("All set: try `cargo xtask demo`.");
+        Ok(())
+    }
+}
+
+/// The emulator's program.
+pub const QEMU: &str = "qemu-system-arm";
+
+/// What every other command needs first. Quick when nothing is missing.
+pub fn ensure() -> Result<Toolchain> {
+    let toolchain = Toolchain::ensure()?;
+    if find(QEMU).is_none() {
+        apt_install(&["qemu-system-arm".to_owned()]).context(
+            "QEMU for Arm is missing and cannot be installed: install it so that `qemu-system-arm` is on PATH, for \
+             example with `apt-get install qemu-system-arm`",
+        )?;
+    }
+    Ok(toolchain)
+}

@@ -1,0 +1,73 @@
+use std::process::Command;
+
+use anyhow::Result;
+use clap::Args;
+
+use crate::board::{self, Board};
+use crate::cmd::{budget::Budget, setup};
+use crate::process::{self, cargo};
+use crate::toolchain::Toolchain;
+
+/// Check everything: formatting, lints, all tests, both images, budgets.
+#[derive(Args)]
+pub struct Test;
+
+impl Test {
+    pub fn run(self) -> Result<()> {
+        let toolchain = setup::ensure()?;
+        for (title, mut command) in lints(&toolchain) {
+            step(&title);
+            process::run(&mut command)?;
+        }
+        let mut tests = cargo();
+        tests.args(["test", "--workspace"]);
+        for board in Board::ALL {
+            step(&format!("image for {}", board.name()));
+            let image = board::build(&toolchain, board)?;
+            eprintln!("{}", image.display());
+            tests.env(board.image_variable(), image);
+        }
+        step("tests");
+        process::run(&mut tests)?;
+        step("budgets");
+        Budget::check(&toolchain)
+    }
+}
+
+fn step(title: &str) {
+    eprintln!("\n== {title}");
+}
+
+/// Formatting and lints, where this machine has them: they belong to rustup's toolchain.
+fn lints(toolchain: &Toolchain) -> Vec<(String, Command)> {
+    let host = |title: &str, arguments: &[&str]| {
+        let mut command = cargo();
+        command.args(arguments);
+        (title.to_owned(), command)
+    };
+    let mut steps = Vec::new();
+    if process::find("cargo-fmt").is_some() {
+        steps.push(host("formatting", &["fmt", "--all", "--check"]));
+    }
+    if process::find("cargo-clippy").is_some() {
+        steps.push(host(
+            "lints",
+            &[
+                "clippy",
+                "--workspace",
+                "--all-targets",
+                "--",
+                "-D",
+                "warnings",
+            ],
+        ));
+    }
+    if toolchain.has_clippy() {
+        for feature in ["mps2-an386", "bench", "nucleo-g474re"] {
+            let mut command = toolchain.firmware_cargo("clippy");
+            command.args(["--release", "--features", feature, "--", "-D", "warnings"]);
+            steps.push((format!("lints of the firmware, {feature}"), command));
+        }
+    }
+    steps
+}

@@ -1,0 +1,53 @@
+//! `cargo xtask COMMAND`: everything that CI and the README call.
+//!
+//! | command | does |
+//! |---|---|
+//! | `setup` | gets what is missing: the target or a compiler that can build it, QEMU |
+//! | `firmware` | builds the images of both boards |
+//! | `qemu` | boots the unit in QEMU and says how to connect |
+//! | `budget` | measures the image against its golden figures |
+//! | `test` | formatting, lints, all tests, both images, budgets |
+
+mod board;
+mod budget;
+mod cmd;
+mod process;
+mod qemu;
+mod toolchain;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version, about)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Setup(cmd::setup::Setup),
+    Firmware(cmd::firmware::Firmware),
+    Qemu(cmd::qemu::Qemu),
+    Budget(cmd::budget::Budget),
+    Test(cmd::test::Test),
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Setup(setup) => setup.run(),
+        Command::Firmware(firmware) => firmware.run(),
+        Command::Qemu(qemu) => qemu.run(),
+        Command::Budget(budget) => budget.run(),
+        Command::Test(test) => test.run(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
