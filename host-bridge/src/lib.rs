@@ -1,10 +1,15 @@
 //! The host bridge of the gesture unit: vocabulary and scene in words, the link to the unit, and the
 //! robot that does what the unit decides.
 
+pub mod cmd;
 pub mod diagnose;
 pub mod explain;
 pub mod language;
+pub mod link;
+pub mod report;
 pub mod scene;
 pub mod sensor;
 pub mod showing;
+pub mod understanding;
+pub mod unit;
 pub mod vocabulary;

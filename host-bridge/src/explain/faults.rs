@@ -1,0 +1,96 @@
+//! What a unit did not take, in words, and why a decision of its is not acted upon.
+
+use deictic_core::protocol::message::Fault;
+
+use super::{Advice, fuse_error, profile_error, scene_error, sentence_error, vocabulary_error};
+use crate::unit::{Distrust, Loss};
+
+/// What a unit did not take.
+#[must_use]
+pub fn fault(fault: &Fault) -> Advice {
+    const LOAD: &str = "nothing: the bridge loads the unit anew";
+    match fault {
+        Fault::Schema { unit, host } => Advice::new(
+            format!(
+                "the unit speaks version {} of the protocol (schema {:#010x}), this bridge version {} \
+                 (schema {:#010x})",
+                unit.0, unit.1, host.0, host.1
+            ),
+            "flash the firmware that belongs to this bridge: `cargo run --release` in firmware/",
+        ),
+        Fault::NoHello => Advice::new("the unit has restarted and knows nothing", LOAD),
+        Fault::NoVocabulary => Advice::new("the unit has no vocabulary", LOAD),
+        Fault::NoScene => Advice::new("the unit has no scene", LOAD),
+        Fault::PartOutOfOrder { expected, got } => Advice::new(
+            format!("a part was lost on the way: {expected} was expected, {got} came"),
+            "look at the cable if it happens again; the bridge sends it anew",
+        ),
+        Fault::OldScene { held, got } => Advice::new(
+            format!("scene {got} is not newer than scene {held}, which the unit has"),
+            "number scenes upwards",
+        ),
+        Fault::Vocabulary(error) => vocabulary_error(error),
+        Fault::Scene(error) => scene_error(error),
+        Fault::Sentence { modality, error } => {
+            let Advice { what, remedy } = sentence_error(error);
+            Advice::new(
+                format!("in the sentence of modality {modality}, {what}"),
+                remedy,
+            )
+        }
+        Fault::Configuration(error) => profile_error(error),
+        Fault::Decision(error) => fuse_error(error),
+        Fault::NoQuestion { decision } => Advice::new(
+            format!("the question of decision {decision} is not open any more"),
+            "say the whole command again",
+        ),
+        Fault::NotForUnit => Advice::new(
+            "the unit heard a message that only units send",
+            "look for two units on one link, or one whose output is looped back",
+        ),
+        Fault::HostLost => Advice::new(
+            "the unit did not hear the bridge for two seconds and has forgotten what was waiting",
+            "say the command again",
+        ),
+    }
+}
+
+/// Why a decision is not acted upon.
+#[must_use]
+pub fn distrust(distrust: &Distrust) -> Advice {
+    const AGAIN: &str = "say the command again";
+    match distrust {
+        Distrust::AfterGap { missed } => Advice::new(
+            format!("{missed} frames before the decision were lost"),
+            AGAIN,
+        ),
+        Distrust::StaleScene {
+            decided_on,
+            present,
+        } => Advice::new(
+            format!("it was made on scene {decided_on}, and the table is at scene {present} now"),
+            AGAIN,
+        ),
+        Distrust::OtherVocabulary => {
+            Advice::new("it was made with another vocabulary", "restart the bridge")
+        }
+        Distrust::OldNumber { number, newest } => Advice::new(
+            format!("decision {number} came after decision {newest}"),
+            "look for two bridges or two units on one link",
+        ),
+    }
+}
+
+/// How a unit was lost.
+#[must_use]
+pub fn loss(loss: &Loss) -> Advice {
+    let what = match loss {
+        Loss::Wire(words) => format!("the link to the unit failed: {words}"),
+        Loss::Silent => "the unit has fallen silent".to_owned(),
+        Loss::Restarted => "the unit has restarted".to_owned(),
+    };
+    Advice::new(
+        what,
+        "the bridge goes on trying to reach it; look at its power and cable",
+    )
+}

@@ -1,0 +1,56 @@
+//! A unit behind a TCP stream.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::Duration;
+
+use super::{Wire, WireError};
+
+/// How long a host may take to answer.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// An open stream.
+pub struct Stream(TcpStream);
+
+impl Stream {
+    /// Connects.
+    pub fn open(host: &str, port: u16) -> Result<Self, WireError> {
+        let connect = || {
+            let mut last = io::Error::new(ErrorKind::NotFound, "the name has no address");
+            for address in (host.trim_matches(['[', ']']), port).to_socket_addrs()? {
+                match TcpStream::connect_timeout(&address, PATIENCE) {
+                    Ok(stream) => return Ok(stream),
+                    Err(error) => last = error,
+                }
+            }
+            Err(last)
+        };
+        let stream = connect().and_then(|stream| {
+            // A frame is small and waited for: without this it would sit in the sender for 40 ms.
+            stream.set_nodelay(true)?;
+            stream.set_write_timeout(Some(PATIENCE))?;
+            Ok(stream)
+        });
+        stream.map(Self).map_err(|cause| WireError::Tcp {
+            address: format!("{host}:{port}"),
+            cause,
+        })
+    }
+}
+
+impl Wire for Stream {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.write_all(bytes)
+    }
+
+    fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
+        // A timeout of 0 would mean none.
+        self.0
+            .set_read_timeout(Some(patience.max(Duration::from_millis(1))))?;
+        match self.0.read(buffer) {
+            Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
+            Err(e) if matches!(e.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => Ok(0),
+            other => other,
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Messages over a wire: saying, hearing, and loading a unit from the beginning.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use deictic_core::large::{self, Message, Scene, Vocabulary};
+use deictic_core::protocol::message::{
+    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, PART, ScenePart, VocabularyPart,
+};
+use deictic_core::protocol::stuffing::Outbox;
+use deictic_core::protocol::{SCHEMA, VERSION};
+use deictic_core::time::Micros;
+
+use super::{PATIENCE, UnitError};
+use crate::link::Wire;
+
+/// How often an unanswered Hello is said again: a board may be in the middle of starting.
+const AGAIN: Duration = Duration::from_millis(500);
+
+/// One open wire with its sequence numbers.
+pub struct Conversation {
+    wire: Box<dyn Wire>,
+    link: Box<large::Link>,
+    began: Instant,
+    heard_at: Instant,
+    /// Messages that came while something else was waited for.
+    pending: Vec<(Message, u16)>,
+}
+
+impl Conversation {
+    /// Nothing has been said.
+    pub fn new(wire: Box<dyn Wire>) -> Self {
+        let now = Instant::now();
+        Self {
+            wire,
+            link: Box::default(),
+            began: now,
+            heard_at: now,
+            pending: Vec::new(),
+        }
+    }
+
+    /// For how long nothing was heard.
+    pub fn silence(&self) -> Duration {
+        self.heard_at.elapsed()
+    }
+
+    /// Says a message.
+    pub fn say(&mut self, message: &Message) -> Result<(), UnitError> {
+        let mut out = Outbox::<8192>::new();
+        if !self.link.send(message, &mut out) {
+            return Err(UnitError::Broken(io::Error::other(
+                "a message does not fit a frame",
+            )));
+        }
+        self.wire.write(out.waiting()).map_err(UnitError::Broken)
+    }
+
+    /// Shows that the host lives.
+    pub fn beat(&mut self, vocabulary: &Vocabulary, scene: &Scene) -> Result<(), UnitError> {
+        let now = Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX));
+        let (vocabulary, scene) = (vocabulary.fingerprint(), scene.version());
+        self.say(&Message::Heartbeat(Heartbeat {
+            now,
+            vocabulary,
+            scene,
+        }))
+    }
+
+    /// What was heard, each with how many frames before it were lost, waiting up to `patience`.
+    pub fn hear(&mut self, patience: Duration) -> Result<Vec<(Message, u16)>, UnitError> {
+        if !self.pending.is_empty() {
+            return Ok(std::mem::take(&mut self.pending));
+        }
+        let mut buffer = [0; 4096];
+        let n = self
+            .wire
+            .read(&mut buffer, patience)
+            .map_err(UnitError::Broken)?;
+        let mut heard = Vec::new();
+        for &byte in buffer.iter().take(n) {
+            heard.extend(self.link.receive(byte).map(|r| (r.message, r.missed)));
+        }
+        if !heard.is_empty() {
+            self.heard_at = Instant::now();
+        }
+        Ok(heard)
+    }
+
+    /// Opens the conversation and loads everything.
+    pub fn load(
+        &mut self,
+        vocabulary: &Vocabulary,
+        scene: &Scene,
+        configuration: &Configuration,
+    ) -> Result<Hello, UnitError> {
+        let hello = self.greet()?;
+        check_capacities(&hello.capacities, vocabulary, scene)?;
+        self.load_vocabulary(vocabulary)?;
+        self.load_scene(scene)?;
+        self.say(&Message::Configure(*configuration))?;
+        self.wait_until_loaded(Loaded::Configuration)?;
+        Ok(hello)
+    }
+
+    fn greet(&mut self) -> Result<Hello, UnitError> {
+        let ours = Hello {
+            version: VERSION,
+            schema: SCHEMA,
+            boot: std::process::id(),
+            capacities: large::Unit::capacities(),
+        };
+        // Ends whatever half a frame the unit may have heard of an earlier host.
+        self.wire.write(&[0]).map_err(UnitError::Broken)?;
+        let until = Instant::now() + PATIENCE;
+        while Instant::now() < until {
+            self.say(&Message::Hello(ours))?;
+            let again = Instant::now() + AGAIN;
+            while let Some(left) = again.checked_duration_since(Instant::now()) {
+                for (message, _) in self.hear(left)? {
+                    if let Message::Hello(theirs) = message {
+                        let (unit, host) = ((theirs.version, theirs.schema), (VERSION, SCHEMA));
+                        if unit != host {
+                            return Err(UnitError::Schema { unit, host });
+                        }
+                        return Ok(theirs);
+                    }
+                }
+            }
+        }
+        Err(UnitError::NoAnswer)
+    }
+
+    fn load_vocabulary(&mut self, vocabulary: &Vocabulary) -> Result<(), UnitError> {
+        let actions = vocabulary.actions();
+        for (i, part) in actions.chunks(PART).enumerate() {
+            self.say(&Message::Vocabulary(VocabularyPart {
+                fingerprint: vocabulary.fingerprint(),
+                parameters: vocabulary.options().iter().skip(1).copied().collect(),
+                features: small(vocabulary.features()),
+                stop: vocabulary.stop(),
+                total: small(actions.len()),
+                first: small(i * PART),
+                actions: part.iter().copied().collect(),
+            }))?;
+        }
+        self.wait_until_loaded(Loaded::Vocabulary(vocabulary.fingerprint()))
+    }
+
+    /// Sends a scene in as many parts as it needs.
+    pub fn load_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
+        let entities = scene.entities();
+        let parts = entities.len().div_ceil(PART).max(1);
+        for i in 0..parts {
+            self.say(&Message::Scene(ScenePart {
+                version: scene.version(),
+                total: small(entities.len()),
+                first: small(i * PART),
+                entities: entities.iter().skip(i * PART).take(PART).cloned().collect(),
+            }))?;
+        }
+        self.wait_until_loaded(Loaded::Scene(scene.version()))
+    }
+
+    /// Waits for the unit to have taken something over; keeps what else it says for later.
+    fn wait_until_loaded(&mut self, what: Loaded) -> Result<(), UnitError> {
+        let until = Instant::now() + PATIENCE;
+        let mut others = std::mem::take(&mut self.pending);
+        while let Some(left) = until.checked_duration_since(Instant::now()) {
+            let mut heard = self.hear(left.min(AGAIN))?.into_iter();
+            while let Some((message, missed)) = heard.next() {
+                match message {
+                    Message::Loaded(loaded) if loaded == what => {
+                        others.extend(heard);
+                        self.pending = others;
+                        return Ok(());
+                    }
+                    Message::Fault(fault) if refuses(&fault, what) => {
+                        return Err(UnitError::Refused(fault));
+                    }
+                    // It has restarted in the middle of this.
+                    Message::Hello(_) => return Err(UnitError::NoAnswer),
+                    other => others.push((other, missed)),
+                }
+            }
+        }
+        Err(UnitError::NoAnswer)
+    }
+}
+
+/// Whether a fault is about what is being loaded, and not about a sentence said before.
+fn refuses(fault: &Fault, what: Loaded) -> bool {
+    match fault {
+        Fault::Vocabulary(_) => matches!(what, Loaded::Vocabulary(_)),
+        Fault::Scene(_) | Fault::OldScene { .. } => matches!(what, Loaded::Scene(_)),
+        Fault::Configuration(_) => what == Loaded::Configuration,
+        Fault::PartOutOfOrder { .. } => what != Loaded::Configuration,
+        Fault::NoHello | Fault::NoVocabulary | Fault::HostLost => true,
+        _ => false,
+    }
+}
+
+/// A count that the vocabulary's and scene's own bounds keep below 256.
+fn small(count: usize) -> u8 {
+    u8::try_from(count).unwrap_or(u8::MAX)
+}
+
+fn check_capacities(
+    unit: &Capacities,
+    vocabulary: &Vocabulary,
+    scene: &Scene,
+) -> Result<(), UnitError> {
+    let most = vocabulary.options().iter().copied().max().unwrap_or(0);
+    for (what, capacity, wanted) in [
+        ("options in a category", unit.options, usize::from(most)),
+        ("categories", unit.categories, vocabulary.options().len()),
+        ("features", unit.features, vocabulary.features()),
+        ("things in a scene", unit.entities, scene.entities().len()),
+    ] {
+        if wanted > usize::from(capacity) {
+            return Err(UnitError::TooLarge {
+                what,
+                capacity,
+                wanted,
+            });
+        }
+    }
+    Ok(())
+}
