@@ -7,9 +7,11 @@ use deictic_core::vocabulary::{Action, Requirement, Signature};
 use thiserror::Error;
 
 use crate::order::Order;
+use crate::recipe::Recipe;
 use crate::record::{CATEGORIES, MODALITIES, Record, Thing};
 
 mod json;
+mod toml;
 
 /// How alike options look or sound: row = what is meant, column = what is observed, in 0..=1.
 pub type Table = Vec<Vec<f32>>;
@@ -66,6 +68,24 @@ impl Catalogue {
     /// [`CatalogueError`] naming the file and what is wrong in it.
     pub fn read_json(path: &std::path::Path) -> Result<Self, CatalogueError> {
         json::read(path)
+    }
+
+    /// Reads a vocabulary in TOML, and how scenes are made up for it.
+    ///
+    /// # Errors
+    /// [`CatalogueError`] naming the file and what is wrong in it.
+    pub fn read_toml(path: &std::path::Path) -> Result<(Self, Recipe), CatalogueError> {
+        toml::read(path)
+    }
+
+    /// The vocabulary of the paper's simulated experiments, which comes with this crate.
+    ///
+    /// # Panics
+    /// Never: a test reads it.
+    #[must_use]
+    pub fn papers() -> (Self, Recipe) {
+        let text = include_str!("../vocabularies/paper.toml");
+        toml::parse(text, "vocabularies/paper.toml").expect("the committed vocabulary is sound")
     }
 
     /// How many options a category has.

@@ -1,5 +1,6 @@
 //! One file per subcommand.
 
+mod generate;
 mod parity;
 mod score;
 
@@ -8,6 +9,7 @@ use clap::Subcommand;
 /// What to do.
 #[derive(Subcommand)]
 pub enum Command {
+    Generate(generate::Generate),
     Parity(parity::Parity),
     Score(score::Score),
 }
@@ -16,6 +18,7 @@ impl Command {
     /// Does it.
     pub fn run(self) -> anyhow::Result<()> {
         match self {
+            Self::Generate(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Score(command) => command.run(),
         }

@@ -13,6 +13,7 @@ use crate::catalogue::{Catalogue, CatalogueError};
 use crate::record::Record;
 
 mod line;
+pub mod write;
 
 pub use line::Fault;
 

@@ -11,10 +11,14 @@
 pub mod answer;
 pub mod catalogue;
 pub mod dataset;
+pub mod generate;
 pub mod interval;
+pub mod noise;
 pub mod order;
 pub mod parity;
+pub mod phonetic;
 pub mod reading;
+pub mod recipe;
 pub mod record;
 pub mod score;
 pub mod situation;

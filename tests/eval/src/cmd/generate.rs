@@ -1,0 +1,66 @@
+//! `deictic-eval generate`
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use deictic_eval::catalogue::Catalogue;
+use deictic_eval::dataset::write;
+use deictic_eval::generate::{Kind, set};
+use deictic_eval::noise::Level;
+use deictic_eval::phonetic;
+use rayon::prelude::*;
+
+/// Make the paper's sets anew: D_A, D_arity and D_prop at n0 to n4, and the fairer D_free.
+#[derive(clap::Args)]
+pub struct Generate {
+    /// Folder to write vocab.json and the sets to
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Vocabulary in TOML [default: the paper's]
+    #[arg(long, value_name = "FILE")]
+    vocabulary: Option<PathBuf>,
+    /// Samples per set
+    #[arg(long, default_value_t = 1000)]
+    samples: usize,
+    /// Seed; the same seed gives the same sets
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Whose similarity table language follows
+    #[arg(long, value_enum, default_value = "published")]
+    language: Language,
+}
+
+/// Where the language table comes from.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Language {
+    /// From the vocabulary file.
+    Published,
+    /// From how its names sound.
+    Phonetic,
+}
+
+impl Generate {
+    pub fn run(self) -> anyhow::Result<()> {
+        let (mut catalogue, recipe) = match &self.vocabulary {
+            Some(file) => Catalogue::read_toml(file)?,
+            None => Catalogue::papers(),
+        };
+        if matches!(self.language, Language::Phonetic) {
+            phonetic::correct(&mut catalogue);
+        }
+        std::fs::create_dir_all(&self.out)
+            .with_context(|| format!("cannot make {}", self.out.display()))?;
+        let to = |name: &str| self.out.join(name);
+        write::vocabulary(&to("vocab.json"), &catalogue).context("cannot write vocab.json")?;
+        let all: Vec<(Kind, Level)> = Kind::ALL
+            .into_iter()
+            .flat_map(|kind| Level::ALL.map(|level| (kind, level)))
+            .collect();
+        all.into_par_iter().try_for_each(|(kind, level)| {
+            let set = set(&catalogue, &recipe, kind, level, self.samples, self.seed);
+            let file = to(&format!("{}.jsonl.gz", set.name));
+            write::set(&file, &set, &catalogue)
+                .with_context(|| format!("cannot write {}", file.display()))
+        })
+    }
+}
