@@ -1,0 +1,133 @@
+//! Why a text was not understood, and what the person can do about it.
+
+use deictic_core::sentence::SentenceError;
+
+/// The longest text that is taken for one utterance, in bytes: some eight minutes of speech.
+pub const LONGEST: usize = 8 * 1024;
+
+/// Why a text was not understood. Nothing of it is executed then.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LanguageError {
+    /// No word in it.
+    #[error("there is no word in it")]
+    Empty,
+    /// Not UTF-8.
+    #[error("the text is not UTF-8 from byte {at} on")]
+    NotText {
+        /// The first bad byte.
+        at: usize,
+    },
+    /// Longer than [`LONGEST`].
+    #[error("the text has {bytes} bytes, at most {LONGEST} make one utterance")]
+    TooLong {
+        /// How long it is.
+        bytes: usize,
+    },
+    /// A word that neither the vocabulary nor the language pack has, and that is like none of them.
+    #[error("unknown word \"{word}\"")]
+    UnknownWord {
+        /// As it was said.
+        word: String,
+        /// Its first byte in the text.
+        at: usize,
+        /// The nearest known words, the nearest first.
+        nearest: Vec<String>,
+    },
+    /// A quantity, number or place that the vocabulary has no category for.
+    #[error("\"{word}\" is a {category}, which this vocabulary does not have")]
+    NoSuchCategory {
+        /// As it was said.
+        word: String,
+        /// What it would be.
+        category: String,
+    },
+    /// A thing named where only other things can go.
+    #[error("\"{word}\" is not a {category}")]
+    WrongPlace {
+        /// As it was said.
+        word: String,
+        /// What is wanted there.
+        category: String,
+        /// What could be there.
+        known: Vec<String>,
+    },
+    /// A number without a unit, where a number alone says nothing.
+    #[error("\"{word}\" has no unit")]
+    NoUnit {
+        /// As it was said.
+        word: String,
+    },
+    /// A number that is not finite, or larger than anything on a table.
+    #[error("\"{word}\" is out of range")]
+    BadQuantity {
+        /// As it was said.
+        word: String,
+    },
+    /// More commands than one utterance may queue.
+    #[error("{commands} commands in one utterance, at most {limit} are queued")]
+    TooManyCommands {
+        /// How many there are.
+        commands: usize,
+        /// How many may be.
+        limit: usize,
+    },
+    /// The vocabulary asks for a language that no pack was found for.
+    #[error("no language pack \"{language}\"")]
+    NoPack {
+        /// What it asks for.
+        language: String,
+    },
+    /// A language pack that cannot be read.
+    #[error("the language pack is not sound: {why}")]
+    BadPack {
+        /// What is wrong, with its line.
+        why: String,
+    },
+    /// The core's sentence cannot hold it.
+    #[error("the sentence does not fit: {0:?}")]
+    Sentence(SentenceError),
+}
+
+impl LanguageError {
+    /// What the person can do about it.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Empty => "say an action and what it is for, as in \"pick the cup\"".into(),
+            Self::NotText { .. } => "send UTF-8, one utterance a line".into(),
+            Self::TooLong { .. } => "say less at once".into(),
+            Self::UnknownWord { nearest, .. } if nearest.is_empty() => {
+                "add it to the words or fillers of the vocabulary".into()
+            }
+            Self::UnknownWord { nearest, .. } => format!(
+                "did you mean {}? Other words go into the words or fillers of the vocabulary",
+                list(nearest)
+            ),
+            Self::NoSuchCategory { category, .. } => {
+                format!(
+                    "leave it out, or add [[parameter]] category = \"{category}\" to the vocabulary"
+                )
+            }
+            Self::WrongPlace { known, .. } => format!("known here: {}", list(known)),
+            Self::NoUnit { .. } => "say the unit too, as in \"5 cm\" or \"30 degrees\"".into(),
+            Self::BadQuantity { .. } => "give a number below a million".into(),
+            Self::TooManyCommands { .. } => "give them a few at a time".into(),
+            Self::NoPack { .. } => {
+                "use language = \"en\" or \"cs\" in the vocabulary, or give a pack's file".into()
+            }
+            Self::BadPack { .. } => "mend the file at that line".into(),
+            Self::Sentence(_) => "say it in two sentences".into(),
+        }
+    }
+}
+
+fn list(words: &[String]) -> String {
+    let quoted: Vec<_> = words.iter().map(|w| format!("\"{w}\"")).collect();
+    quoted.join(", ")
+}
+
+impl From<SentenceError> for LanguageError {
+    fn from(error: SentenceError) -> Self {
+        Self::Sentence(error)
+    }
+}

@@ -1,0 +1,108 @@
+//! Words that are not known but sound or look like known ones, and how alike the options of a
+//! category are to what was heard.
+
+use deictic_core::category::Category;
+
+use super::likeness::{Ear, Sound};
+use super::pack::Role;
+use super::read::{Piece, What};
+use super::table::{Meaning, Table};
+
+/// From this likeness on an unknown word is taken for a misheard one: "kup" and "cup" have 0.83,
+/// "drawr" and "drawer" 0.92, "spoon" and "stop" 0.4.
+const MISHEARD: f64 = 0.72;
+
+/// Below this a known word is not worth proposing.
+const NEAR: f64 = 0.4;
+
+/// Roles that a misheard word may have: those that keep a command from being done, or that tell what
+/// goes where.
+const ROLES: [Role; 3] = [Role::Not, Role::Storage, Role::Polite];
+
+/// All phrases with their sounds.
+#[derive(Clone, Debug)]
+pub struct Guesser {
+    ear: Ear,
+    names: Vec<(String, Sound, Category, u8)>,
+    roles: Vec<(Sound, Role)>,
+}
+
+impl Guesser {
+    /// Listens to every phrase of the table.
+    #[must_use]
+    pub fn new(table: &Table) -> Self {
+        let ear = Ear::new(table.pack().phonetic);
+        let names = table.names_of();
+        let names = names
+            .map(|(words, c, o)| (words.clone(), ear.listen(&words), c, o))
+            .collect();
+        let role = |&role: &Role| {
+            let words = table.words_of_role(role).filter(|w| w.len() > 3);
+            words.map(|w| (ear.listen(w), role)).collect::<Vec<_>>()
+        };
+        let roles = ROLES.iter().flat_map(role).collect();
+        Self { ear, names, roles }
+    }
+
+    /// Takes unknown words that are like known ones for these; what was heard stays as it is.
+    pub fn mend(&self, pieces: &mut [Piece]) {
+        for piece in pieces.iter_mut().filter(|p| p.what == What::Unknown) {
+            if piece.words.chars().count() < 3 {
+                continue;
+            }
+            let heard = self.ear.listen(&piece.words);
+            let role = self
+                .roles
+                .iter()
+                .map(|(s, r)| (self.ear.likeness(&heard, s), *r));
+            let role = role
+                .max_by(|a, b| a.0.total_cmp(&b.0))
+                .unwrap_or((0.0, Role::Filler));
+            let names = self
+                .names
+                .iter()
+                .map(|n| (self.ear.likeness(&heard, &n.1), n.2, n.3));
+            let names: Vec<_> = names.filter(|(l, ..)| *l >= MISHEARD).collect();
+            let best = names.iter().map(|n| n.0).fold(0.0, f64::max);
+            if role.0 >= MISHEARD && role.0 > best {
+                piece.what = What::Known(vec![Meaning::Role(role.1)]);
+            } else if best > 0.0 {
+                // One word has one category; which of its options is left to the likelihoods.
+                let top = names.iter().filter(|n| n.0 == best);
+                let top = top.map(|&(_, category, option)| Meaning::Name(category, option));
+                piece.what = What::Known(top.collect());
+            }
+        }
+    }
+
+    /// The known words that are most like this one, the nearest first.
+    #[must_use]
+    pub fn nearest(&self, word: &str) -> Vec<String> {
+        let heard = self.ear.listen(word);
+        let mut near: Vec<_> = self
+            .names
+            .iter()
+            .map(|(words, sound, ..)| (self.ear.likeness(&heard, sound), words))
+            .filter(|(likeness, _)| *likeness >= NEAR)
+            .collect();
+        near.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+        near.dedup_by(|a, b| a.1 == b.1);
+        near.into_iter()
+            .take(3)
+            .map(|(_, words)| words.clone())
+            .collect()
+    }
+
+    /// How alike each of `options` options of a category is to what was heard, 0..=1.
+    #[must_use]
+    pub fn likenesses(&self, heard: &str, category: Category, options: usize) -> Vec<f64> {
+        let heard = self.ear.listen(heard);
+        let mut out = vec![0.0; options];
+        for (_, sound, c, option) in &self.names {
+            if let Some(best) = out.get_mut(usize::from(*option)).filter(|_| *c == category) {
+                *best = f64::max(*best, self.ear.likeness(&heard, sound));
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,211 @@
+//! What people say or type, as sentences of the core.
+//!
+//! [`understand`] takes a text as it comes ("no, put the mug into the drawer, please") and gives a
+//! queue of [`Command`]s, each a core sentence whose likelihoods tell what else the words may have
+//! been, and a list of what is *not* to be done: prohibitions, questions, conditions, tales, talk.
+//! A word that is not known is an error that names it; nothing of the text is executed then.
+//!
+//! Names and their synonyms come from the vocabulary, grammar words from a language [`pack`].
+
+mod clause;
+mod compose;
+mod draft;
+mod drafter;
+mod error;
+mod fill;
+mod forms;
+mod guess;
+mod likeness;
+pub mod pack;
+mod place;
+mod quantity;
+mod read;
+mod split;
+mod table;
+mod token;
+mod utter;
+
+use deictic_core::category::Category;
+use deictic_core::large::Sentence;
+
+pub use compose::{SetAside, Why};
+pub use error::{LONGEST, LanguageError};
+pub use likeness::{Ear, Sound};
+pub use token::text_of;
+pub use utter::Uncertainty;
+
+use crate::vocabulary::Lexicon;
+use guess::Guesser;
+use pack::Pack;
+use table::Table;
+use utter::Utterer;
+
+/// At most this many commands of one utterance are queued.
+pub const QUEUE: usize = 16;
+
+/// One command.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// What the core gets.
+    pub sentence: Sentence,
+    /// Its bytes in the text.
+    pub span: std::ops::Range<usize>,
+    /// The categories that were left to the hand: "this", "there".
+    pub pointed: Vec<Category>,
+    /// Whether it corrects an earlier utterance: "no, the cup".
+    pub corrects: bool,
+}
+
+impl Command {
+    /// The option of a category that was most likely said, if one was.
+    #[must_use]
+    pub fn best(&self, category: Category) -> Option<u8> {
+        let word = self
+            .sentence
+            .words()
+            .iter()
+            .find(|w| w.category() == Some(category))?;
+        let best = deictic_core::math::argmax(word.likelihoods())?;
+        u8::try_from(best).ok()
+    }
+
+    /// The quantity of a category, if one was said: metres, radians or a number.
+    #[must_use]
+    pub fn quantity(&self, category: Category) -> Option<f32> {
+        let word = self
+            .sentence
+            .words()
+            .iter()
+            .find(|w| w.category() == Some(category))?;
+        word.quantity()
+    }
+}
+
+/// What a text says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Utterance {
+    /// What to do, in order; empty when nothing is to be done.
+    pub commands: Vec<Command>,
+    /// The parts that are not to be done, and why.
+    pub aside: Vec<SetAside>,
+}
+
+/// Understands one language over one vocabulary. Making it costs as much as a hundred utterances, so
+/// keep it.
+#[derive(Clone, Debug)]
+pub struct Listener<'a> {
+    lexicon: &'a Lexicon,
+    table: Table,
+    guesser: Guesser,
+    /// How sure a word is.
+    pub uncertainty: Uncertainty,
+}
+
+impl<'a> Listener<'a> {
+    /// With the built-in pack of the vocabulary's language.
+    ///
+    /// # Errors
+    /// [`LanguageError::NoPack`].
+    pub fn new(lexicon: &'a Lexicon) -> Result<Self, LanguageError> {
+        Ok(Self::with_pack(
+            lexicon,
+            Pack::built_in(lexicon.language())?,
+        ))
+    }
+
+    /// With another pack.
+    #[must_use]
+    pub fn with_pack(lexicon: &'a Lexicon, pack: Pack) -> Self {
+        let table = Table::new(lexicon, pack);
+        let guesser = Guesser::new(&table);
+        Self {
+            lexicon,
+            table,
+            guesser,
+            uncertainty: Uncertainty::default(),
+        }
+    }
+
+    /// Understands a text.
+    ///
+    /// # Errors
+    /// [`LanguageError`]; nothing of the text is to be done then.
+    pub fn understand(&self, text: &str) -> Result<Utterance, LanguageError> {
+        let mut pieces = read::read(&token::tokens(text)?, &self.table)?;
+        self.guesser.mend(&mut pieces);
+        let clauses = clause::clauses(&pieces, &self.table);
+        let plan = compose::compose(&clauses, &self.table, self.lexicon);
+        let plan = plan.map_err(|e| self.with_nearest(e, text))?;
+        if plan.commands.len() > QUEUE {
+            let commands = plan.commands.len();
+            return Err(LanguageError::TooManyCommands {
+                commands,
+                limit: QUEUE,
+            });
+        }
+        let utterer = Utterer {
+            lexicon: self.lexicon,
+            guesser: &self.guesser,
+            uncertainty: self.uncertainty,
+        };
+        let commands = plan.commands.into_iter().map(|planned| {
+            let draft = &planned.draft;
+            let slots = [&draft.target, &draft.storage].into_iter().flatten();
+            Ok(Command {
+                sentence: utterer.sentence(draft)?,
+                pointed: slots
+                    .filter(|s| s.is_pointed())
+                    .map(|s| s.category)
+                    .collect(),
+                span: planned.span,
+                corrects: planned.corrects,
+            })
+        });
+        let commands = commands.collect::<Result<_, LanguageError>>()?;
+        Ok(Utterance {
+            commands,
+            aside: plan.aside,
+        })
+    }
+
+    /// Understands bytes as they come over a line.
+    ///
+    /// # Errors
+    /// As [`Listener::understand`], and [`LanguageError::NotText`] for what is not UTF-8.
+    pub fn understand_bytes(&self, bytes: &[u8]) -> Result<Utterance, LanguageError> {
+        self.understand(text_of(bytes)?)
+    }
+
+    /// Adds the nearest words and the spelling of the text to an error about a word.
+    fn with_nearest(&self, error: LanguageError, text: &str) -> LanguageError {
+        match error {
+            LanguageError::UnknownWord { word, at, .. } => {
+                let nearest = self.guesser.nearest(&word);
+                LanguageError::UnknownWord {
+                    word: as_said(text, at).unwrap_or(word),
+                    at,
+                    nearest,
+                }
+            }
+            other => other,
+        }
+    }
+}
+
+fn as_said(text: &str, at: usize) -> Option<String> {
+    let rest = text.get(at..)?;
+    let word: String = rest
+        .chars()
+        .take_while(|c| c.is_alphanumeric() || *c == '\'')
+        .collect();
+    (!word.is_empty()).then_some(word)
+}
+
+/// Understands one text over a vocabulary, with the built-in pack of its language. A [`Listener`]
+/// that is kept is faster.
+///
+/// # Errors
+/// [`LanguageError`]; nothing of the text is to be done then.
+pub fn understand(text: &str, lexicon: &Lexicon) -> Result<Utterance, LanguageError> {
+    Listener::new(lexicon)?.understand(text)
+}
