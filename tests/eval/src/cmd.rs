@@ -3,6 +3,7 @@
 mod generate;
 mod parity;
 mod score;
+mod speed;
 
 use clap::Subcommand;
 
@@ -12,6 +13,7 @@ pub enum Command {
     Generate(generate::Generate),
     Parity(parity::Parity),
     Score(score::Score),
+    Speed(speed::Speed),
 }
 
 impl Command {
@@ -21,6 +23,7 @@ impl Command {
             Self::Generate(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Score(command) => command.run(),
+            Self::Speed(command) => command.run(),
         }
     }
 }

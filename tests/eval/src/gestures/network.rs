@@ -37,11 +37,11 @@ pub struct Recipe {
 impl Default for Recipe {
     fn default() -> Self {
         Self {
-            epochs: 60,
+            epochs: std::env::var("EP").map_or(60,|v|v.parse().unwrap()),
             batch: 128,
             rate: 4e-3,
-            decay: 2e-4,
-            noise: 0.03,
+            decay: std::env::var("DE").map_or(2e-4,|v|v.parse().unwrap()),
+            noise: std::env::var("NO").map_or(0.03,|v|v.parse().unwrap()),
             seed: 1,
         }
     }
