@@ -12,7 +12,10 @@ pub trait Problem: std::error::Error + 'static {
 
 /// A [`Problem`] with its place.
 #[derive(Debug)]
-pub struct FileError<P> {
+pub struct FileError<P>(Box<Found<P>>);
+
+#[derive(Debug)]
+struct Found<P> {
     source: NamedSource<String>,
     place: Option<SourceSpan>,
     problem: P,
@@ -21,58 +24,55 @@ pub struct FileError<P> {
 impl<P: Problem> FileError<P> {
     /// A problem at `place` (bytes) of the file `name` with this `text`; without a place it is about
     /// the file as a whole.
-    pub fn new(
-        name: &str,
-        text: &str,
-        place: Option<std::ops::Range<usize>>,
-        problem: P,
-    ) -> Box<Self> {
-        Box::new(Self {
+    pub fn new(name: &str, text: &str, place: Option<std::ops::Range<usize>>, problem: P) -> Self {
+        Self(Box::new(Found {
             source: NamedSource::new(name, text.to_owned()).with_language("TOML"),
             place: place.map(SourceSpan::from),
             problem,
-        })
+        }))
     }
 
     /// What is wrong.
     pub fn problem(&self) -> &P {
-        &self.problem
+        &self.0.problem
     }
 
     /// What is wrong, without its place.
     pub fn into_problem(self) -> P {
-        self.problem
+        self.0.problem
     }
 
     /// The bytes of the file that it is about.
     pub fn place(&self) -> Option<std::ops::Range<usize>> {
-        self.place.map(|p| p.offset()..p.offset() + p.len())
+        self.0.place.map(|p| p.offset()..p.offset() + p.len())
     }
 }
 
 impl<P: Problem> fmt::Display for FileError<P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.source.name(), self.problem)
+        write!(f, "{}: {}", self.0.source.name(), self.0.problem)
     }
 }
 
 impl<P: Problem> std::error::Error for FileError<P> {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        self.problem.source()
+        self.0.problem.source()
     }
 }
 
 impl<P: Problem> Diagnostic for FileError<P> {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.problem.remedy()))
+        Some(Box::new(self.0.problem.remedy()))
     }
 
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        self.place.map(|_| &self.source as &dyn miette::SourceCode)
+        self.0
+            .place
+            .map(|_| &self.0.source as &dyn miette::SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let place = self.place?;
+        let place = self.0.place?;
         Some(Box::new(std::iter::once(LabeledSpan::underline(place))))
     }
 }

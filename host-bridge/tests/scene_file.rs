@@ -13,7 +13,7 @@ fn lexicon() -> Lexicon {
 fn refused(text: &str) -> (P, String) {
     let lexicon = lexicon();
     let found = SceneFile::parse("test.toml", text).and_then(|file| file.tabletop(&lexicon));
-    let error = *found.unwrap_err();
+    let error = found.unwrap_err();
     assert!(
         !miette::Diagnostic::help(&error)
             .unwrap()

@@ -5,7 +5,7 @@ use deictic_core::category::Category;
 use deictic_core::sentence::{GESTURE, LANGUAGE};
 
 fn refused(text: &str) -> (P, String) {
-    let error = *Lexicon::parse("test.toml", text).unwrap_err();
+    let error = Lexicon::parse("test.toml", text).unwrap_err();
     let place = error.place().map_or("", |p| &text[p]).to_owned();
     let shown = format!("{error}");
     assert!(shown.starts_with("test.toml: "), "{shown}");

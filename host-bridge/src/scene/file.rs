@@ -16,7 +16,7 @@ use crate::diagnose::FileError;
 use crate::vocabulary::Lexicon;
 
 /// A [`Problem`] with its place in a scene file.
-pub type SceneFileError = Box<FileError<Problem>>;
+pub type SceneFileError = FileError<Problem>;
 
 type Found<T> = Result<T, (Option<Range<usize>>, Problem)>;
 

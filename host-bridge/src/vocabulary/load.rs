@@ -15,7 +15,7 @@ use super::{CategoryEntries, Entry, Lexicon, TABLETOP};
 use crate::diagnose::FileError;
 
 /// A [`Problem`] with its place in a vocabulary file.
-pub type VocabularyFileError = Box<FileError<Problem>>;
+pub type VocabularyFileError = FileError<Problem>;
 
 /// A problem and the bytes it is about.
 pub(super) type Found<T> = Result<T, (Option<Range<usize>>, Problem)>;

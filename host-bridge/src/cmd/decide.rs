@@ -1,0 +1,174 @@
+//! `deictic decide`: one decision, made here.
+
+use clap::Args;
+use deictic_core::decide::Outcome;
+use deictic_core::fuse::{Situation, fuse};
+use deictic_core::large::{Decision, Observations, Sentence, Trace};
+use miette::Result;
+use serde::Serialize;
+
+use super::files::Files;
+use super::profile::Choice;
+use super::{advice, paint};
+use crate::explain::reasons::Reasons;
+use crate::explain::{self, Advice};
+use crate::report::{self, DecisionReport};
+use crate::scene::Tabletop;
+use crate::sensor::{Noise, Sensors};
+use crate::showing::showing;
+use crate::understanding::{Understood, understand};
+use crate::vocabulary::Lexicon;
+
+/// Decide what a sentence and a gesture mean, without a unit and without a robot.
+///
+/// ```text
+/// $ deictic decide --say "pick the cup" --show "pick cup"
+/// execute  pick cup
+/// $ deictic decide --say "pick it up" --show "can|cup"
+/// ask      Which object for pick: can or cup?
+/// ```
+///
+/// It is the unit's own code that runs, so a unit decides the same, to the bit.
+#[derive(Args, Clone, Debug)]
+#[command(verbatim_doc_comment)]
+pub struct Decide {
+    #[command(flatten)]
+    files: Files,
+    /// What is said, for example "put the can into the drawer"
+    #[arg(long, value_name = "TEXT", required_unless_present = "show")]
+    say: Option<String>,
+    /// What is shown, for example "pick can", "pick|push can" or "pick=0.7|push=0.6 can"
+    #[arg(long, value_name = "TEXT")]
+    show: Option<String>,
+    /// Observe what is said and shown through made-up sensors with this much noise
+    #[arg(long, value_enum, value_name = "LEVEL")]
+    noise: Option<Noise>,
+    /// What the noise starts from; the same seed makes the same noise
+    #[arg(long, default_value_t = 1, requires = "noise")]
+    seed: u64,
+    #[command(flatten)]
+    choice: Choice,
+    /// Print why: merged words, entropies, penalties, thresholds
+    #[arg(long)]
+    explain: bool,
+    /// Print one JSON object per command, for programs
+    #[arg(long)]
+    json: bool,
+}
+
+/// One line of `--json`.
+#[derive(Serialize)]
+struct Line {
+    #[serde(flatten)]
+    decision: DecisionReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<Reasons>,
+}
+
+impl Decide {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// A report with what was wrong and what to do.
+    pub fn run(self) -> Result<()> {
+        let (lexicon, table) = self.files.read()?;
+        let shown = match &self.show {
+            Some(text) => Some(showing(text, &lexicon).map_err(|e| advice(&e, e.remedy()))?),
+            None => None,
+        };
+        let said = match &self.say {
+            None => vec![None],
+            Some(text) => match understand(text, &lexicon).map_err(|e| advice(&e, e.remedy()))? {
+                Understood::Commands(sentences) => sentences.into_iter().map(Some).collect(),
+                Understood::Nothing(why) => {
+                    self.print_nothing(&why);
+                    return Ok(());
+                }
+            },
+        };
+        let mut sensors = self.noise.map(|n| Sensors::new(&lexicon, n, self.seed));
+        // A gesture belongs to the first command; what is said after it stands alone.
+        let mut shown = shown;
+        for said in said {
+            let sentences = [shown.take(), said].into_iter().flatten();
+            self.decide(&lexicon, &table, sentences, sensors.as_mut())?;
+        }
+        Ok(())
+    }
+
+    fn decide(
+        &self,
+        lexicon: &Lexicon,
+        table: &Tabletop,
+        sentences: impl Iterator<Item = Sentence>,
+        mut sensors: Option<&mut Sensors<'_>>,
+    ) -> Result<()> {
+        let mut observations = Observations::new();
+        for sentence in sentences {
+            let observed = match &mut sensors {
+                Some(sensors) => sensors.observe(&sentence),
+                None => Ok(sentence),
+            };
+            observed
+                .and_then(|sentence| observations.insert(sentence))
+                .map_err(|e| refused(explain::sentence_error(&e)))?;
+        }
+        let situation = Situation {
+            vocabulary: lexicon.vocabulary(),
+            scene: table.scene(),
+            observations: &observations,
+        };
+        let mut trace = Box::new(Trace::new());
+        let decision = fuse(situation, &self.choice.profile(), &mut trace)
+            .map_err(|e| refused(explain::fuse_error(&e)))?;
+        let why = self.explain.then(|| Reasons::of_trace(&trace, lexicon));
+        if self.json {
+            print_json(&Line {
+                decision: report::decision(&decision, table.scene(), lexicon),
+                why,
+            });
+        } else {
+            anstream::println!("{}", in_words(&decision, table, lexicon));
+            if let Some(why) = why {
+                anstream::print!("{}", paint::dim(why));
+            }
+        }
+        Ok(())
+    }
+
+    fn print_nothing(&self, why: &str) {
+        if self.json {
+            print_json(&serde_json::json!({ "outcome": "nothing", "because": why }));
+        } else {
+            anstream::println!("{}  {why}", paint::ask("nothing"));
+        }
+    }
+}
+
+fn refused(Advice { what, remedy }: Advice) -> miette::Report {
+    advice(what, remedy)
+}
+
+fn print_json(value: &impl Serialize) {
+    if let Ok(line) = serde_json::to_string(value) {
+        anstream::println!("{line}");
+    }
+}
+
+fn in_words(decision: &Decision, table: &Tabletop, lexicon: &Lexicon) -> String {
+    match &decision.outcome {
+        Outcome::Execute(intent) => {
+            let what = explain::intent(intent, lexicon);
+            format!("{}  {what}", paint::good("execute"))
+        }
+        Outcome::Ask(question) => {
+            let best = decision.best.as_ref();
+            let text = explain::question(question, best, table.scene(), lexicon);
+            format!("{}      {text}", paint::ask("ask"))
+        }
+        Outcome::Repeat => format!(
+            "{}   I did not understand. Please say and show it again.",
+            paint::bad("repeat")
+        ),
+    }
+}

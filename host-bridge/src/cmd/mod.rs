@@ -1,0 +1,14 @@
+//! The commands, one file each.
+
+pub mod decide;
+mod files;
+mod paint;
+mod profile;
+pub mod setups;
+
+use miette::Report;
+
+/// An error in words with what to do about it.
+fn advice(what: impl std::fmt::Display, remedy: impl std::fmt::Display) -> Report {
+    miette::miette!(help = remedy.to_string(), "{what}")
+}

@@ -1,0 +1,95 @@
+//! Which variant of the method decides.
+
+use clap::{Args, ValueEnum};
+use deictic_core::merge::Merge;
+use deictic_core::profile::{Model, Profile, Threshold};
+
+/// Which variant of the method decides, on top of a named one.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct Choice {
+    /// The paper's method, or its authors' public implementation with its habits
+    #[arg(long, value_enum, default_value_t = Named::Paper)]
+    profile: Named,
+    /// Merge only (m1), with unaligned parameters (m2), with unaligned features too (m3)
+    #[arg(long, value_enum, default_value_t = ModelName::M3)]
+    model: ModelName,
+    /// How the words of several modalities become one
+    #[arg(long, value_enum, default_value_t = MergeName::Add)]
+    merge: MergeName,
+    /// What makes an option clear
+    #[arg(long, value_enum, default_value_t = ThresholdName::Entropy)]
+    threshold: ThresholdName,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Named {
+    Paper,
+    Reference,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ModelName {
+    Baseline,
+    M1,
+    M2,
+    M3,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum MergeName {
+    Max,
+    Mul,
+    Add,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ThresholdName {
+    /// Every best option is clear
+    None,
+    /// Against the entropy of the word itself
+    Entropy,
+    /// Against the entropy of white noise
+    WhiteNoise,
+    /// Against fixed likelihoods
+    Fixed,
+}
+
+impl Choice {
+    /// The core's profile.
+    pub fn profile(self) -> Profile {
+        let model = match self.model {
+            ModelName::Baseline => Model::Baseline,
+            ModelName::M1 => Model::M1,
+            ModelName::M2 => Model::M2,
+            ModelName::M3 => Model::M3,
+        };
+        let merge = match self.merge {
+            MergeName::Max => Merge::Max,
+            MergeName::Mul => Merge::Mul,
+            MergeName::Add => Merge::Add,
+        };
+        let threshold = match self.threshold {
+            ThresholdName::None => Threshold::None,
+            ThresholdName::Entropy => Threshold::Entropy,
+            ThresholdName::WhiteNoise => Threshold::WhiteNoise,
+            ThresholdName::Fixed => Threshold::FIXED,
+        };
+        match (self.profile, model, threshold) {
+            (Named::Paper, Model::Baseline, _) => Profile::BASELINE,
+            (Named::Paper, ..) => Profile {
+                model,
+                merge,
+                threshold,
+                ..Profile::PAPER
+            },
+            (Named::Reference, _, Threshold::None) => Profile::reference_baseline(model),
+            (Named::Reference, _, Threshold::Fixed { .. }) => {
+                Profile::reference_fixed(model, merge)
+            }
+            (Named::Reference, ..) => Profile {
+                threshold,
+                ..Profile::reference_entropy(model, merge)
+            },
+        }
+    }
+}

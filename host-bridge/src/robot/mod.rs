@@ -1,0 +1,193 @@
+//! What does the deciding's bidding: a robot takes one command at a time, says how it fares, and can
+//! be stopped at any moment.
+
+pub mod sim;
+mod skill;
+
+use deictic_core::large::Intent;
+use deictic_core::time::Micros;
+use thiserror::Error;
+
+use crate::scene::{Change, Tabletop};
+use crate::vocabulary::Lexicon;
+pub use skill::Skill;
+
+/// Names a command for good, so that one that arrives twice is not done twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CommandId {
+    /// The run of the bridge that gave it.
+    pub run: u32,
+    /// Its number in that run, counted from 1 upwards.
+    pub number: u32,
+}
+
+/// Something to be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// Its name.
+    pub id: CommandId,
+    /// What is to be done.
+    pub intent: Intent,
+    /// The version of the scene that it was decided on.
+    pub scene: u32,
+}
+
+/// What a robot sees of the world.
+#[derive(Clone, Copy)]
+pub struct World<'a> {
+    /// The table as it is now.
+    pub table: &'a Tabletop,
+    /// The names of things, and which motion an action stands for.
+    pub lexicon: &'a Lexicon,
+}
+
+/// Why a robot does not begin a command.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Refusal {
+    /// It is doing another one.
+    #[error("the robot is still busy")]
+    Busy,
+    /// It has had this command, or a later one of the same run, before.
+    #[error("this command was given before")]
+    Repeated,
+    /// The command was decided on another scene.
+    #[error("it was decided on scene {decided_on}, and the table is at scene {present} now")]
+    StaleScene {
+        /// What it was decided on.
+        decided_on: u32,
+        /// What there is.
+        present: u32,
+    },
+    /// It does not know such a motion.
+    #[error("the robot does not know how to {0}")]
+    UnknownMotion(String),
+    /// A parameter that the motion needs is not given.
+    #[error("no {0} is given, and it takes one")]
+    Missing(&'static str),
+    /// A thing is not in the scene.
+    #[error("the {0} is not here")]
+    NotHere(String),
+    /// A thing is glued to the table.
+    #[error("the {0} is glued")]
+    Glued(String),
+    /// A thing is not glued, so there is nothing to unglue.
+    #[error("the {0} is not glued")]
+    NotGlued(String),
+    /// A thing, or the place it is to go to, is out of the arm's reach.
+    #[error("the {0} is out of reach")]
+    OutOfReach(String),
+    /// Something stands on a thing.
+    #[error("something is on the {0}")]
+    Covered(String),
+    /// A thing takes nothing more.
+    #[error("the {0} is full")]
+    Full(String),
+    /// There is nothing in a thing that could be poured.
+    #[error("there is nothing in the {0}")]
+    Empty(String),
+    /// A thing cannot have this done to it.
+    #[error("the {thing} is not {wanted}")]
+    Unfit {
+        /// The thing.
+        thing: String,
+        /// What it would have to be.
+        wanted: &'static str,
+    },
+    /// The hand holds something else.
+    #[error("the hand holds the {0}")]
+    Holding(String),
+    /// The hand holds nothing.
+    #[error("the hand holds nothing")]
+    NothingHeld,
+    /// A distance or angle that no motion has.
+    #[error("{0} is beyond what the arm does in one motion")]
+    TooFar(String),
+}
+
+impl Refusal {
+    /// What the person can do about it.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Busy => "wait for it, or say \"stop\"".into(),
+            Self::Repeated => "say it again if it is to be done again".into(),
+            Self::StaleScene { .. } => "the table has changed in between: say it again".into(),
+            Self::UnknownMotion(_) => format!(
+                "give the action a `motion` in the vocabulary: {}",
+                crate::diagnose::quoted(Skill::ALL.map(Skill::name))
+            ),
+            Self::Missing(what) => format!("say or show the {what} too"),
+            Self::NotHere(_) => "put it on the table, or name another".into(),
+            Self::Glued(thing) => format!("say \"unglue {thing}\" first"),
+            Self::NotGlued(_) => "it can be picked as it is".into(),
+            Self::OutOfReach(_) => "move it nearer, or name another".into(),
+            Self::Covered(thing) => format!("take away what stands on the {thing} first"),
+            Self::Full(thing) => format!("empty the {thing} first, or name another"),
+            Self::Empty(_) => "name something that is full".into(),
+            Self::Unfit { .. } => "name another".into(),
+            Self::Holding(thing) => format!("put the {thing} somewhere, or say \"release\""),
+            Self::NothingHeld => "pick something first".into(),
+            Self::TooFar(_) => "say it in smaller steps".into(),
+        }
+    }
+}
+
+/// How far a command is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// A motion begins.
+    Begun {
+        /// Of which command.
+        id: CommandId,
+        /// What the arm does now, for example "lower to the can".
+        step: String,
+        /// Its number, from 1.
+        number: usize,
+        /// How many the command has.
+        of: usize,
+    },
+    /// A motion has ended, and this has become different.
+    Changed {
+        /// Of which command.
+        id: CommandId,
+        /// What.
+        changes: Vec<Change>,
+    },
+    /// The command is done.
+    Done(CommandId),
+    /// It was stopped on the way.
+    Stopped {
+        /// Which command.
+        id: CommandId,
+        /// During which motion.
+        step: String,
+    },
+    /// It failed on the way.
+    Failed {
+        /// Which command.
+        id: CommandId,
+        /// What went wrong.
+        why: String,
+    },
+}
+
+/// An arm with a gripper.
+pub trait Robot {
+    /// Begins a command, or says why not; nothing moves then.
+    ///
+    /// # Errors
+    /// [`Refusal`]
+    fn begin(&mut self, now: Micros, command: &Command, world: World<'_>) -> Result<(), Refusal>;
+
+    /// Stops at once, whatever it is doing; [`Robot::poll`] then tells where.
+    fn stop(&mut self, now: Micros);
+
+    /// What has happened up to now.
+    fn poll(&mut self, now: Micros) -> Vec<Event>;
+
+    /// The command it is doing, and how many percent of it are done.
+    fn progress(&self, now: Micros) -> Option<(CommandId, u8)>;
+
+    /// What is in its hand: the name of a thing.
+    fn holding(&self) -> Option<&str>;
+}

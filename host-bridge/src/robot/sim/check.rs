@@ -1,0 +1,211 @@
+//! What the arm looks at before it begins: whether the motion can be done to these things. It asks
+//! the table itself, whatever a unit may have decided.
+
+use deictic_core::category::Category;
+use deictic_core::decide::FEASIBLE;
+use deictic_core::large::{Entity, Intent};
+
+use super::plan::Task;
+use super::{REACH, Sim};
+use crate::robot::{Refusal, Skill, World};
+
+/// How far one motion goes at most, in metres.
+const FARTHEST: f32 = 0.5;
+
+/// A feature of a thing by name; `None` when the vocabulary does not have it, and nothing can be said.
+fn feature(entity: &Entity, name: &str, world: World<'_>) -> Option<bool> {
+    let at = world.lexicon.feature(name)?;
+    entity.features.get(at).map(|f| *f >= FEASIBLE)
+}
+
+fn named(intent: &Intent, category: Category, world: World<'_>) -> Option<String> {
+    let option = intent.option(category)?;
+    Some(world.lexicon.option_name(category, option))
+}
+
+/// The thing a command speaks of, if it is here and within reach.
+fn thing<'a>(
+    intent: &Intent,
+    category: Category,
+    called: &'static str,
+    world: World<'a>,
+) -> Result<(String, &'a Entity), Refusal> {
+    let name = named(intent, category, world).ok_or(Refusal::Missing(called))?;
+    let entity = intent
+        .option(category)
+        .and_then(|option| world.table.find(category, option))
+        .ok_or_else(|| Refusal::NotHere(name.clone()))?;
+    let [x, y, z] = entity.position;
+    let out = x * x + y * y + z * z > REACH * REACH;
+    if out || feature(entity, "reachable", world) == Some(false) {
+        return Err(Refusal::OutOfReach(name));
+    }
+    Ok((name, entity))
+}
+
+/// What a command comes to, or why it cannot be done.
+pub(super) fn check(
+    sim: &Sim,
+    skill: Skill,
+    intent: &Intent,
+    world: World<'_>,
+) -> Result<Task, Refusal> {
+    let distance = quantity(intent, Category::DISTANCE)?;
+    Ok(match skill {
+        Skill::Stop => Task::Stop,
+        Skill::MoveUp => Task::MoveUp {
+            by: distance.unwrap_or(0.1),
+        },
+        Skill::Release => Task::Release {
+            thing: sim.held.clone().ok_or(Refusal::NothingHeld)?,
+        },
+        Skill::Pick => {
+            if let Some(held) = &sim.held {
+                return Err(Refusal::Holding(held.clone()));
+            }
+            let (thing, entity) = graspable(sim, intent, world)?;
+            let at = entity.position;
+            Task::Pick { thing, at }
+        }
+        Skill::Push => {
+            if let Some(held) = &sim.held {
+                return Err(Refusal::Holding(held.clone()));
+            }
+            let (thing, entity) = graspable(sim, intent, world)?;
+            if feature(entity, "pushable", world) == Some(false) {
+                let wanted = "pushable";
+                return Err(Refusal::Unfit { thing, wanted });
+            }
+            let [x, y, z] = entity.position;
+            let by = distance.unwrap_or(0.1);
+            let to = match named(intent, Category::DIRECTION, world).as_deref() {
+                Some("left") => [x, y + by, z],
+                Some("right") => [x, y - by, z],
+                Some("back") => [x - by, y, z],
+                _ => [x + by, y, z],
+            };
+            if to.iter().map(|c| c * c).sum::<f32>() > REACH * REACH {
+                return Err(Refusal::OutOfReach(format!(
+                    "place the {thing} would go to"
+                )));
+            }
+            Task::Push {
+                thing,
+                from: entity.position,
+                to,
+            }
+        }
+        Skill::Unglue => {
+            if let Some(held) = &sim.held {
+                return Err(Refusal::Holding(held.clone()));
+            }
+            let (thing, entity) = thing(intent, Category::OBJECT, "object", world)?;
+            if feature(entity, "glued", world) == Some(false) {
+                return Err(Refusal::NotGlued(thing));
+            }
+            let at = entity.position;
+            Task::Unglue { thing, at }
+        }
+        Skill::Pour => {
+            let (thing, entity) = graspable(sim, intent, world)?;
+            if feature(entity, "full-liquid", world) == Some(false) {
+                return Err(Refusal::Empty(thing));
+            }
+            let (into, container) = open(intent, world, "liquid-container")?;
+            if feature(container, "full-liquid", world) == Some(true) {
+                return Err(Refusal::Full(into));
+            }
+            let angle = quantity(intent, Category::ANGLE)?;
+            Task::Pour {
+                thing,
+                at: entity.position,
+                into,
+                over: container.position,
+                degrees: angle.unwrap_or(core::f32::consts::FRAC_PI_2).to_degrees(),
+            }
+        }
+        Skill::PutInto => {
+            let (thing, entity) = graspable(sim, intent, world)?;
+            let (into, container) = open(intent, world, "container")?;
+            Task::PutInto {
+                thing,
+                at: entity.position,
+                into,
+                to: container.position,
+            }
+        }
+        Skill::Stack => {
+            let (thing, entity) = graspable(sim, intent, world)?;
+            let (onto, base) = open(intent, world, "stackable")?;
+            Task::Stack {
+                thing,
+                at: entity.position,
+                onto,
+                to: base.position,
+            }
+        }
+    })
+}
+
+fn quantity(intent: &Intent, category: Category) -> Result<Option<f32>, Refusal> {
+    let Some(quantity) = intent.parameter(category).and_then(|p| p.quantity) else {
+        return Ok(None);
+    };
+    let (most, shown) = if category == Category::ANGLE {
+        (
+            core::f32::consts::PI,
+            format!("{} degrees", quantity.to_degrees()),
+        )
+    } else {
+        (FARTHEST, format!("{quantity} m"))
+    };
+    if quantity.is_finite() && quantity > 0.0 && quantity <= most {
+        Ok(Some(quantity))
+    } else {
+        Err(Refusal::TooFar(shown))
+    }
+}
+
+/// The object of a command, if the hand can take it or holds it already.
+fn graspable<'a>(
+    sim: &Sim,
+    intent: &Intent,
+    world: World<'a>,
+) -> Result<(String, &'a Entity), Refusal> {
+    let (thing, entity) = thing(intent, Category::OBJECT, "object", world)?;
+    match &sim.held {
+        Some(held) if *held == thing => return Ok((thing, entity)),
+        Some(held) => return Err(Refusal::Holding(held.clone())),
+        None => {}
+    }
+    if feature(entity, "glued", world) == Some(true) {
+        return Err(Refusal::Glued(thing));
+    }
+    if feature(entity, "full-stack", world) == Some(true) {
+        return Err(Refusal::Covered(thing));
+    }
+    if feature(entity, "pickable", world) == Some(false) {
+        let wanted = "pickable";
+        return Err(Refusal::Unfit { thing, wanted });
+    }
+    Ok((thing, entity))
+}
+
+/// The storage of a command, if it is `wanted` and takes something more.
+fn open<'a>(
+    intent: &Intent,
+    world: World<'a>,
+    wanted: &'static str,
+) -> Result<(String, &'a Entity), Refusal> {
+    let (thing, entity) = thing(intent, Category::STORAGE, "storage", world)?;
+    if feature(entity, wanted, world) == Some(false) {
+        return Err(Refusal::Unfit { thing, wanted });
+    }
+    if feature(entity, "full-stack", world) == Some(true) {
+        return Err(Refusal::Covered(thing));
+    }
+    if wanted != "stackable" && feature(entity, "full-container", world) == Some(true) {
+        return Err(Refusal::Full(thing));
+    }
+    Ok((thing, entity))
+}

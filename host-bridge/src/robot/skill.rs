@@ -1,0 +1,61 @@
+//! The motions a robot knows.
+
+/// A motion. An action of the vocabulary stands for one by its `motion`, or by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Skill {
+    /// Raise the hand.
+    MoveUp,
+    /// Set down what the hand holds and let go.
+    Release,
+    /// Stand still.
+    Stop,
+    /// Grasp a thing and lift it.
+    Pick,
+    /// Push a thing along the table.
+    Push,
+    /// Twist a glued thing loose.
+    Unglue,
+    /// Tilt a full thing over a container.
+    Pour,
+    /// Put a thing into a container.
+    PutInto,
+    /// Put a thing on another.
+    Stack,
+}
+
+impl Skill {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::MoveUp,
+        Self::Release,
+        Self::Stop,
+        Self::Pick,
+        Self::Push,
+        Self::Unglue,
+        Self::Pour,
+        Self::PutInto,
+        Self::Stack,
+    ];
+
+    /// Its name in a vocabulary file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MoveUp => "move-up",
+            Self::Release => "release",
+            Self::Stop => "stop",
+            Self::Pick => "pick",
+            Self::Push => "push",
+            Self::Unglue => "unglue",
+            Self::Pour => "pour",
+            Self::PutInto => "put-into",
+            Self::Stack => "stack",
+        }
+    }
+
+    /// The motion of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|skill| skill.name() == name)
+    }
+}
