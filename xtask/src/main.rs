@@ -3,6 +3,7 @@
 //! | command | does |
 //! |---|---|
 //! | `setup` | gets what is missing: the target or a compiler that can build it, QEMU |
+//! | `demo` | plays a tabletop session on the unit in QEMU with a simulated Panda |
 //! | `firmware` | builds the images of both boards |
 //! | `qemu` | boots the unit in QEMU and says how to connect |
 //! | `budget` | measures the image against its golden figures |
@@ -29,6 +30,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Setup(cmd::setup::Setup),
+    Demo(cmd::demo::Demo),
     Firmware(cmd::firmware::Firmware),
     Qemu(cmd::qemu::Qemu),
     Budget(cmd::budget::Budget),
@@ -38,6 +40,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Setup(setup) => setup.run(),
+        Command::Demo(demo) => demo.run(),
         Command::Firmware(firmware) => firmware.run(),
         Command::Qemu(qemu) => qemu.run(),
         Command::Budget(budget) => budget.run(),

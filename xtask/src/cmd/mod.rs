@@ -1,6 +1,7 @@
 //! One file per command; its doc comment is its manual.
 
 pub mod budget;
+pub mod demo;
 pub mod firmware;
 pub mod qemu;
 pub mod setup;

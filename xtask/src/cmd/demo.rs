@@ -1,0 +1,46 @@
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use clap::Args;
+
+use crate::board::{self, Board};
+use crate::cmd::setup;
+use crate::process::{self, cargo};
+
+/// Play a tabletop session on the unit in QEMU, with a simulated Panda.
+///
+/// Sets up what is missing, builds the unit's image and the bridge, boots the board, and plays: what was said and
+/// shown, what the board decided and why, what the robot did.
+#[derive(Args)]
+pub struct Demo {
+    /// Play published table set-ups instead: each command aligned and contradicting, 2,000 decisions
+    #[arg(long, value_name = "FILE")]
+    setups: Option<PathBuf>,
+    /// Anything else goes to `deictic play`, or to `deictic setups`
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    rest: Vec<String>,
+}
+
+impl Demo {
+    pub fn run(self) -> Result<()> {
+        let toolchain = setup::ensure()?;
+        let image = board::build(&toolchain, Board::Mps2An386)?;
+        let mut bridge = cargo();
+        bridge.args(["run", "--quiet", "--package", "deictic", "--"]);
+        match &self.setups {
+            Some(file) => {
+                // The bridge runs in the project's root, where a relative path would mean another file.
+                let file = file
+                    .canonicalize()
+                    .with_context(|| format!("cannot find {}", file.display()))?;
+                bridge.arg("setups").arg(file);
+            }
+            None => {
+                bridge.arg("play");
+            }
+        }
+        bridge.args(["--board", "qemu"]).args(&self.rest);
+        bridge.env(Board::Mps2An386.image_variable(), image);
+        process::run(&mut bridge)
+    }
+}
