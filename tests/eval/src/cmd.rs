@@ -1,5 +1,6 @@
 //! One file per subcommand.
 
+mod bound;
 mod generate;
 mod parity;
 mod score;
@@ -10,6 +11,7 @@ use clap::Subcommand;
 /// What to do.
 #[derive(Subcommand)]
 pub enum Command {
+    Bound(bound::Bound),
     Generate(generate::Generate),
     Parity(parity::Parity),
     Score(score::Score),
@@ -20,6 +22,7 @@ impl Command {
     /// Does it.
     pub fn run(self) -> anyhow::Result<()> {
         match self {
+            Self::Bound(command) => command.run(),
             Self::Generate(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Score(command) => command.run(),

@@ -9,8 +9,10 @@
 //! looks things up by option.
 
 pub mod answer;
+pub mod bound;
 pub mod catalogue;
 pub mod dataset;
+pub mod free;
 pub mod generate;
 pub mod interval;
 pub mod noise;

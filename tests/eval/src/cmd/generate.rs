@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use deictic_eval::catalogue::Catalogue;
 use deictic_eval::dataset::write;
+use deictic_eval::free;
 use deictic_eval::generate::{Kind, set};
 use deictic_eval::noise::Level;
 use deictic_eval::phonetic;
@@ -52,12 +53,16 @@ impl Generate {
             .with_context(|| format!("cannot make {}", self.out.display()))?;
         let to = |name: &str| self.out.join(name);
         write::vocabulary(&to("vocab.json"), &catalogue).context("cannot write vocab.json")?;
-        let all: Vec<(Kind, Level)> = Kind::ALL
-            .into_iter()
+        let kinds = Kind::ALL.into_iter().map(Some).chain([None]);
+        let all: Vec<(Option<Kind>, Level)> = kinds
             .flat_map(|kind| Level::ALL.map(|level| (kind, level)))
             .collect();
+        let (n, seed) = (self.samples, self.seed);
         all.into_par_iter().try_for_each(|(kind, level)| {
-            let set = set(&catalogue, &recipe, kind, level, self.samples, self.seed);
+            let set = match kind {
+                Some(kind) => set(&catalogue, &recipe, kind, level, n, seed),
+                None => free::set(&catalogue, &recipe, level, n, seed),
+            };
             let file = to(&format!("{}.jsonl.gz", set.name));
             write::set(&file, &set, &catalogue)
                 .with_context(|| format!("cannot write {}", file.display()))
