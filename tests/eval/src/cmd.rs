@@ -4,6 +4,7 @@ mod bound;
 mod generate;
 mod parity;
 mod score;
+mod sentences;
 mod speed;
 
 use clap::Subcommand;
@@ -15,6 +16,7 @@ pub enum Command {
     Generate(generate::Generate),
     Parity(parity::Parity),
     Score(score::Score),
+    Sentences(sentences::Sentences),
     Speed(speed::Speed),
 }
 
@@ -26,6 +28,7 @@ impl Command {
             Self::Generate(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Score(command) => command.run(),
+            Self::Sentences(command) => command.run(),
             Self::Speed(command) => command.run(),
         }
     }

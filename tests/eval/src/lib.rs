@@ -24,6 +24,7 @@ pub mod reading;
 pub mod recipe;
 pub mod record;
 pub mod score;
+pub mod setups;
 pub mod situation;
 pub mod speed;
 pub mod variant;
