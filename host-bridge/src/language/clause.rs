@@ -1,7 +1,6 @@
 //! Pieces to clauses: where one command ends and the next begins, and which clauses are no commands
 //! at all but prohibitions, questions, conditions, tales or talk.
 
-
 use super::pack::Role;
 use super::read::{Piece, What};
 use super::split::split;

@@ -21,6 +21,7 @@ mod place;
 mod quantity;
 mod read;
 mod split;
+pub mod stream;
 mod table;
 mod token;
 mod utter;
