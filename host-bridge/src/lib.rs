@@ -1,6 +1,7 @@
 //! The host bridge of the gesture unit: vocabulary and scene in words, the link to the unit, and the
 //! robot that does what the unit decides.
 
+pub mod answering;
 pub mod cmd;
 pub mod diagnose;
 pub mod explain;
@@ -10,6 +11,7 @@ pub mod report;
 pub mod robot;
 pub mod scene;
 pub mod sensor;
+pub mod session;
 pub mod setups;
 pub mod showing;
 pub mod understanding;

@@ -1,5 +1,7 @@
 //! `deictic`: the host bridge of the gesture unit.
 
+use std::process::ExitCode;
+
 use clap::{Parser, Subcommand};
 use deictic::cmd;
 
@@ -14,12 +16,15 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Decide(cmd::decide::Decide),
+    Run(cmd::run::Run),
     Setups(cmd::setups::Setups),
 }
 
-fn main() -> miette::Result<()> {
+fn main() -> miette::Result<ExitCode> {
     match Cli::parse().command {
-        Command::Decide(decide) => decide.run(),
-        Command::Setups(setups) => setups.run(),
+        Command::Decide(decide) => decide.run()?,
+        Command::Run(run) => return run.run().map(ExitCode::from),
+        Command::Setups(setups) => setups.run()?,
     }
+    Ok(ExitCode::SUCCESS)
 }

@@ -1,9 +1,13 @@
 //! The commands, one file each.
 
+mod conversation;
 pub mod decide;
 mod files;
+mod lines;
 mod paint;
+mod printer;
 mod profile;
+pub mod run;
 pub mod setups;
 
 use miette::Report;

@@ -58,33 +58,48 @@ pub fn question(
             (_, None) => "What shall I do?".to_owned(),
         };
     }
-    let action = best.map_or_else(
-        || "do that to".to_owned(),
-        |best| lexicon.option_name(Category::ACTION, best.action),
-    );
     let name = lexicon.category_name(category);
-    let meant = best.and_then(|best| Some((best.action, best.option(category)?)));
-    let first = match (question.reason, meant) {
-        (Reason::NotInScene, Some((_, option))) => {
+    let reason = question.reason;
+    // The question is about the action that was heard best, which the penalties may have replaced
+    // by another in the likeliest intent; then it goes unnamed here.
+    let action = best.map(|best| best.action).filter(|&action| {
+        let known = lexicon.vocabulary().actions().get(usize::from(action));
+        let takes = known.is_some_and(|a| a.signature.compulsory.contains(category.index()));
+        let unfit = |option| !because(scene, lexicon, action, category, option).is_empty();
+        let option = best.and_then(|best| best.option(category));
+        takes && (reason != Reason::Infeasible || option.is_some_and(unfit))
+    });
+    let called = action.map(|action| lexicon.option_name(Category::ACTION, action));
+    let meant = best.and_then(|best| best.option(category));
+    let first = match (reason, meant) {
+        (Reason::NotInScene, Some(option)) => {
             format!("I see no {} here. ", lexicon.option_name(category, option))
         }
-        (Reason::Infeasible, Some((act, option))) => format!(
-            "I cannot {action} with the {}: {}. ",
-            lexicon.option_name(category, option),
-            because(scene, lexicon, act, category, option).join(", ")
-        ),
+        (Reason::Infeasible, Some(option)) => {
+            let thing = lexicon.option_name(category, option);
+            match (&called, action) {
+                (Some(called), Some(action)) => {
+                    let why = because(scene, lexicon, action, category, option).join(", ");
+                    format!("I cannot {called} with the {thing}: {why}. ")
+                }
+                _ => format!("That cannot be done with the {thing}. "),
+            }
+        }
+        (Reason::Infeasible, None) => format!("That {name} does not fit. "),
         _ => String::new(),
     };
+    let to = called.map_or_else(String::new, |called| format!(" for {called}"));
     let fit = matches!(
-        question.reason,
+        reason,
         Reason::Missing | Reason::NotInScene | Reason::Infeasible
     );
-    match among {
-        Some(among) => format!("{first}Which {name} for {action}: {among}?"),
-        None if fit && category.is_entity() => {
-            format!("{first}There is no {name} here that fits {action}. What now?")
+    match (among, &question.candidates[..]) {
+        (Some(only), [_]) => format!("{first}Shall it be the {only}{to}?"),
+        (Some(among), _) => format!("{first}Which {name}{to}: {among}?"),
+        (None, _) if fit && category.is_entity() => {
+            format!("{first}There is no {name} here that fits. What now?")
         }
-        None => format!("{first}Which {name} for {action}?"),
+        (None, _) => format!("{first}Which {name}{to}?"),
     }
 }
 
@@ -126,4 +141,85 @@ fn or(names: impl Iterator<Item = String>) -> Option<String> {
     } else {
         format!("{} or {last}", names.join(", "))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::SceneFile;
+    use deictic_core::intent::Parameter;
+
+    fn asked(
+        category: Category,
+        reason: Reason,
+        candidates: &[u8],
+        action: &str,
+        object: Option<u8>,
+    ) -> String {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
+        let mut best = large::Intent {
+            action: lexicon.option(Category::ACTION, action).unwrap(),
+            ..large::Intent::default()
+        };
+        for option in object {
+            let (category, quantity) = (Category::OBJECT, None);
+            let parameter = Parameter {
+                category,
+                option,
+                quantity,
+            };
+            best.parameters.push(parameter).unwrap();
+        }
+        let asked = Question {
+            category,
+            reason,
+            candidates: candidates.iter().copied().collect(),
+        };
+        question(&asked, Some(&best), table.scene(), &lexicon)
+    }
+
+    #[test]
+    fn a_question_names_what_is_in_doubt_and_why() {
+        const O: Category = Category::OBJECT;
+        let text = asked(O, Reason::SeveralClear, &[0, 1], "pick", Some(0));
+        assert_eq!(text, "Which object for pick: can or cup?");
+        let text = asked(O, Reason::Infeasible, &[0], "pick", Some(3));
+        assert_eq!(
+            text,
+            "I cannot pick with the box: it is glued. Shall it be the can for pick?"
+        );
+        let text = asked(O, Reason::Infeasible, &[0, 1, 2], "unglue", Some(3));
+        assert_eq!(
+            text,
+            "That cannot be done with the box. Which object: can, cup or cube?"
+        );
+        let text = asked(Category::STORAGE, Reason::Infeasible, &[3], "pick", Some(0));
+        assert_eq!(text, "That storage does not fit. Shall it be the bowl?");
+        let text = asked(O, Reason::Missing, &[], "pick", None);
+        assert_eq!(text, "There is no object here that fits. What now?");
+        let text = asked(
+            Category::ACTION,
+            Reason::SeveralClear,
+            &[3, 4],
+            "pick",
+            None,
+        );
+        assert_eq!(text, "pick or push?");
+        let text = asked(Category::ACTION, Reason::NoneClear, &[3], "pick", None);
+        assert_eq!(text, "Did you mean pick?");
+    }
+
+    #[test]
+    fn quantities_are_said_with_their_unit() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let mut up = large::Intent::default();
+        let parameter = Parameter {
+            category: Category::DISTANCE,
+            option: 0,
+            quantity: Some(0.05),
+        };
+        up.parameters.push(parameter).unwrap();
+        assert_eq!(intent(&up, &lexicon), "move-up 5 cm");
+    }
 }

@@ -25,13 +25,15 @@ pub enum Address {
     },
     /// An emulated board that is started for the purpose: `qemu`.
     Qemu,
+    /// The unit's state machine in this process, without a board: `inside`.
+    Inside,
 }
 
 /// An address that cannot be understood.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("`{0}` is not the address of a unit")]
 #[diagnostic(help(
-    "write serial:/dev/ttyACM0, serial:/dev/ttyACM0@921600, tcp:127.0.0.1:7700 or qemu"
+    "write serial:/dev/ttyACM0, serial:/dev/ttyACM0@921600, tcp:127.0.0.1:7700, qemu, or inside for none at all"
 ))]
 pub struct AddressError(String);
 
@@ -40,8 +42,10 @@ impl FromStr for Address {
 
     fn from_str(written: &str) -> Result<Self, AddressError> {
         let error = || AddressError(written.to_owned());
-        if written == "qemu" {
-            return Ok(Self::Qemu);
+        match written {
+            "qemu" => return Ok(Self::Qemu),
+            "inside" => return Ok(Self::Inside),
+            _ => {}
         }
         let (kind, rest) = written.split_once(':').ok_or_else(error)?;
         match kind {
@@ -80,6 +84,7 @@ impl fmt::Display for Address {
             Self::Serial { path, baud } => write!(f, "serial:{path}@{baud}"),
             Self::Tcp { host, port } => write!(f, "tcp:{host}:{port}"),
             Self::Qemu => write!(f, "qemu"),
+            Self::Inside => write!(f, "inside"),
         }
     }
 }
@@ -95,6 +100,7 @@ mod tests {
             "tcp:127.0.0.1:7700",
             "tcp:[::1]:7700",
             "qemu",
+            "inside",
         ] {
             assert_eq!(written.parse::<Address>().unwrap().to_string(), written);
         }

@@ -1,6 +1,8 @@
-//! The wires that reach a gesture unit: a serial port, a TCP stream, or the unit's image in QEMU.
+//! The wires that reach a gesture unit: a serial port, a TCP stream, the unit's image in
+//! QEMU, or none at all.
 
 mod address;
+mod inside;
 mod qemu;
 mod serial;
 mod tcp;
@@ -9,6 +11,7 @@ use std::io;
 use std::time::Duration;
 
 pub use address::{Address, AddressError};
+pub use inside::Inside;
 pub use qemu::{IMAGE_VARIABLE, QEMU};
 
 /// A stream of bytes to a unit and back.
@@ -80,5 +83,6 @@ pub fn open(address: &Address) -> Result<Box<dyn Wire>, WireError> {
         Address::Serial { path, baud } => Ok(Box::new(serial::Port::open(path, *baud)?)),
         Address::Tcp { host, port } => Ok(Box::new(tcp::Stream::open(host, *port)?)),
         Address::Qemu => Ok(Box::new(qemu::Board::boot()?)),
+        Address::Inside => Ok(Box::new(Inside::start())),
     }
 }

@@ -17,6 +17,9 @@ use crate::link::Wire;
 /// How often an unanswered Hello is said again: a board may be in the middle of starting.
 const AGAIN: Duration = Duration::from_millis(500);
 
+/// How often loading begins anew at most.
+const ATTEMPTS: usize = 3;
+
 /// One open wire with its sequence numbers.
 pub struct Conversation {
     wire: Box<dyn Wire>,
@@ -94,13 +97,26 @@ impl Conversation {
         scene: &Scene,
         configuration: &Configuration,
     ) -> Result<Hello, UnitError> {
-        let hello = self.greet()?;
-        check_capacities(&hello.capacities, vocabulary, scene)?;
-        self.load_vocabulary(vocabulary)?;
-        self.load_scene(scene)?;
-        self.say(&Message::Configure(*configuration))?;
-        self.wait_until_loaded(Loaded::Configuration)?;
-        Ok(hello)
+        // A unit that was still starting answers every Hello that was said meanwhile, and each of
+        // them empties it.
+        for _ in 0..ATTEMPTS {
+            self.pending.clear();
+            let hello = self.greet()?;
+            check_capacities(&hello.capacities, vocabulary, scene)?;
+            self.say_vocabulary(vocabulary)?;
+            if !self.is_loaded(Loaded::Vocabulary(vocabulary.fingerprint()))? {
+                continue;
+            }
+            self.say_scene(scene)?;
+            if !self.is_loaded(Loaded::Scene(scene.version()))? {
+                continue;
+            }
+            self.say(&Message::Configure(*configuration))?;
+            if self.is_loaded(Loaded::Configuration)? {
+                return Ok(hello);
+            }
+        }
+        Err(UnitError::NoAnswer)
     }
 
     fn greet(&mut self) -> Result<Hello, UnitError> {
@@ -131,7 +147,7 @@ impl Conversation {
         Err(UnitError::NoAnswer)
     }
 
-    fn load_vocabulary(&mut self, vocabulary: &Vocabulary) -> Result<(), UnitError> {
+    fn say_vocabulary(&mut self, vocabulary: &Vocabulary) -> Result<(), UnitError> {
         let actions = vocabulary.actions();
         for (i, part) in actions.chunks(PART).enumerate() {
             self.say(&Message::Vocabulary(VocabularyPart {
@@ -144,11 +160,11 @@ impl Conversation {
                 actions: part.iter().copied().collect(),
             }))?;
         }
-        self.wait_until_loaded(Loaded::Vocabulary(vocabulary.fingerprint()))
+        Ok(())
     }
 
-    /// Sends a scene in as many parts as it needs.
-    pub fn load_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
+    /// Says a scene in as many parts as it needs.
+    pub fn say_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
         let entities = scene.entities();
         let parts = entities.len().div_ceil(PART).max(1);
         for i in 0..parts {
@@ -159,11 +175,12 @@ impl Conversation {
                 entities: entities.iter().skip(i * PART).take(PART).cloned().collect(),
             }))?;
         }
-        self.wait_until_loaded(Loaded::Scene(scene.version()))
+        Ok(())
     }
 
-    /// Waits for the unit to have taken something over; keeps what else it says for later.
-    fn wait_until_loaded(&mut self, what: Loaded) -> Result<(), UnitError> {
+    /// Waits for the unit to have taken something over; keeps what else it says for later. `false`
+    /// when it opened the conversation anew instead, or did not answer.
+    fn is_loaded(&mut self, what: Loaded) -> Result<bool, UnitError> {
         let until = Instant::now() + PATIENCE;
         let mut others = std::mem::take(&mut self.pending);
         while let Some(left) = until.checked_duration_since(Instant::now()) {
@@ -173,18 +190,17 @@ impl Conversation {
                     Message::Loaded(loaded) if loaded == what => {
                         others.extend(heard);
                         self.pending = others;
-                        return Ok(());
+                        return Ok(true);
                     }
                     Message::Fault(fault) if refuses(&fault, what) => {
                         return Err(UnitError::Refused(fault));
                     }
-                    // It has restarted in the middle of this.
-                    Message::Hello(_) => return Err(UnitError::NoAnswer),
+                    Message::Hello(_) => return Ok(false),
                     other => others.push((other, missed)),
                 }
             }
         }
-        Err(UnitError::NoAnswer)
+        Ok(false)
     }
 }
 

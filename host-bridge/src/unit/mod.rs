@@ -3,17 +3,19 @@
 //! may be acted upon.
 
 mod conversation;
+mod error;
+mod event;
 mod trust;
 
 use std::time::{Duration, Instant};
 
 use deictic_core::large::{Message, Scene, Sentence, Vocabulary};
-use deictic_core::protocol::message::{
-    Answer, Configuration, Decided, Fault, Hello, RobotStatus, Statistics, Why, WhyActions,
-};
+use deictic_core::protocol::message::{Answer, Configuration, Fault, Hello, Loaded, RobotStatus};
 
-use crate::link::{Address, WireError, open};
+use crate::link::{Address, Wire, WireError, open};
 use conversation::Conversation;
+pub use error::UnitError;
+pub use event::{Event, Loss};
 pub use trust::Distrust;
 use trust::Trust;
 
@@ -26,99 +28,22 @@ const HEARTBEAT: Duration = Duration::from_millis(500);
 /// How long a unit may take to answer while it is being loaded.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// What a unit has said, or what has become of it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Event {
-    /// It has decided; `trust` says whether an execution may go to the robot.
-    Decision {
-        /// What it has decided.
-        decided: Box<Decided<16>>,
-        /// Why it must not be acted upon, if so.
-        trust: Result<(), Distrust>,
-    },
-    /// Why: one category.
-    Why(Box<Why<64>>),
-    /// Why: the actions' penalties.
-    WhyActions(Box<WhyActions<64>>),
-    /// Something was not right; nothing was done.
-    Fault(Fault),
-    /// What it has counted.
-    Statistics(Statistics),
-    /// It is gone; nothing can be decided until [`Event::Back`].
-    Lost(Loss),
-    /// It is there, and knows vocabulary, scene and configuration again. What was waiting in it is
-    /// gone.
-    Back(Hello),
-}
+/// How long a unit may take to take over a new scene before it counts as lost.
+const SCENE_PATIENCE: Duration = Duration::from_millis(1_000);
 
-/// How a unit was lost.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Loss {
-    /// The wire failed, with these words of the system's.
-    Wire(String),
-    /// Nothing was heard for [`UNIT_LOST`].
-    Silent,
-    /// It has started anew and forgotten everything.
-    Restarted,
-}
-
-/// A conversation could not be opened.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum UnitError {
-    /// The wire could not be opened.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Wire(#[from] WireError),
-    /// The wire failed.
-    #[error("the link to the unit failed")]
-    #[diagnostic(help(
-        "look at the cable and the board's power; the bridge connects again by itself once it runs"
-    ))]
-    Broken(#[source] std::io::Error),
-    /// The unit did not answer.
-    #[error("nothing that speaks our protocol answers")]
-    #[diagnostic(help(
-        "does the board run the unit's firmware, and is it the right port and speed?"
-    ))]
-    NoAnswer,
-    /// The unit speaks another version of the protocol.
-    #[error(
-        "the unit speaks version {} of the protocol (schema {:#010x}), this bridge version {} (schema {:#010x})",
-        .unit.0, .unit.1, .host.0, .host.1
-    )]
-    #[diagnostic(help(
-        "flash the firmware that belongs to this bridge: `cargo run --release` in firmware/, or use the bridge \
-         that belongs to the firmware"
-    ))]
-    Schema {
-        /// The unit's version and schema.
-        unit: (u16, u32),
-        /// This bridge's.
-        host: (u16, u32),
-    },
-    /// The vocabulary or scene is larger than the unit can hold.
-    #[error("the unit holds {capacity} {what}, and there are {wanted}")]
-    #[diagnostic(help(
-        "leave some out, or flash a unit built with larger capacities (core/src/capacity.rs)"
-    ))]
-    TooLarge {
-        /// Of what there is too much.
-        what: &'static str,
-        /// How many the unit holds.
-        capacity: u16,
-        /// How many there are.
-        wanted: usize,
-    },
-    /// The unit refused what it was told.
-    #[error("the unit refuses what it was told: {}", crate::explain::fault(.0).what)]
-    #[diagnostic(help("{}", crate::explain::fault(.0).remedy))]
-    Refused(Fault),
-}
+/// Opens a wire to a unit, as often as one is needed.
+pub type Opener = Box<dyn FnMut() -> Result<Box<dyn Wire>, WireError> + Send>;
 
 /// A gesture unit as the host sees it.
 pub struct GestureUnit {
-    address: Address,
+    open: Opener,
     conversation: Option<Conversation>,
+    /// Whether it knows vocabulary, scene and configuration.
+    loaded: bool,
+    /// Until when it is to have taken over the newest scene.
+    scene_due: Option<Instant>,
+    /// What has happened besides what was heard.
+    happened: Vec<Event>,
     vocabulary: Vocabulary,
     scene: Scene,
     configuration: Configuration,
@@ -138,11 +63,29 @@ impl GestureUnit {
         scene: &Scene,
         configuration: Configuration,
     ) -> Result<Self, UnitError> {
-        let mut conversation = Conversation::new(open(address)?);
+        let address = address.clone();
+        let opener = Box::new(move || open(&address));
+        Self::over(opener, vocabulary, scene, configuration)
+    }
+
+    /// Connects to a unit over wires of any kind and loads all it needs.
+    ///
+    /// # Errors
+    /// [`UnitError`] with what to do about it.
+    pub fn over(
+        mut open: Opener,
+        vocabulary: &Vocabulary,
+        scene: &Scene,
+        configuration: Configuration,
+    ) -> Result<Self, UnitError> {
+        let mut conversation = Conversation::new(open()?);
         let hello = conversation.load(vocabulary, scene, &configuration)?;
         Ok(Self {
-            address: address.clone(),
+            open,
             conversation: Some(conversation),
+            loaded: true,
+            scene_due: None,
+            happened: Vec::new(),
             vocabulary: vocabulary.clone(),
             scene: scene.clone(),
             configuration,
@@ -161,17 +104,19 @@ impl GestureUnit {
     /// Whether the unit is there.
     #[must_use]
     pub fn is_there(&self) -> bool {
-        self.conversation.is_some()
+        self.loaded
     }
 
-    /// Tells the unit of a new scene. Decisions made on an older one are distrusted from now on.
+    /// Tells the unit of a new scene, without waiting for it to take it over. Decisions made on an
+    /// older one are distrusted from now on; a unit that does not take it over counts as lost.
     ///
     /// # Errors
     /// [`UnitError`]; the scene is sent again when the unit comes back.
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
         self.scene = scene.clone();
         self.trust.set_scene(scene.version());
-        self.with(|c| c.load_scene(scene))
+        self.scene_due = Some(Instant::now() + SCENE_PATIENCE);
+        self.with(|c| c.say_scene(scene))
     }
 
     /// Tells the unit what a modality observed.
@@ -209,8 +154,14 @@ impl GestureUnit {
     /// What has happened, waiting up to `patience` for the first of it. Call it often: it also shows
     /// the unit that the host lives, and reaches for a unit that was lost.
     pub fn poll(&mut self, patience: Duration) -> Vec<Event> {
-        let Some(conversation) = &mut self.conversation else {
+        if !self.happened.is_empty() {
+            return std::mem::take(&mut self.happened);
+        }
+        if !self.loaded {
             return self.reach(patience);
+        }
+        let Some(conversation) = &mut self.conversation else {
+            return vec![self.lose(Loss::Silent)];
         };
         let result = if self.beat.elapsed() >= HEARTBEAT {
             self.beat = Instant::now();
@@ -218,26 +169,30 @@ impl GestureUnit {
         } else {
             Ok(())
         };
-        let heard = result.and_then(|()| conversation.hear(patience));
-        match heard {
-            Err(error) => vec![self.lose(Loss::Wire(error.to_string()))],
-            Ok(messages) if messages.is_empty() && conversation.silence() >= UNIT_LOST => {
-                vec![self.lose(Loss::Silent)]
-            }
-            Ok(messages) => {
-                let mut events = Vec::new();
-                for (message, missed) in messages {
-                    match message {
-                        Message::Hello(_) => {
-                            events.push(self.lose(Loss::Restarted));
-                            return events;
-                        }
-                        other => events.extend(self.event(other, missed)),
-                    }
-                }
-                events
-            }
+        let heard = match result.and_then(|()| conversation.hear(patience)) {
+            Ok(heard) => heard,
+            Err(error) => return vec![self.lose(Loss::Wire(error.in_full()))],
+        };
+        if heard.is_empty() && conversation.silence() >= UNIT_LOST {
+            return vec![self.lose(Loss::Silent)];
         }
+        let mut events = Vec::new();
+        for (message, missed) in heard {
+            let loss = match &message {
+                Message::Hello(_) => Some(Loss::Forgetful),
+                Message::Fault(fault) => loss_behind(fault),
+                _ => None,
+            };
+            if let Some(loss) = loss {
+                events.push(self.lose(loss));
+                return events;
+            }
+            events.extend(self.event(message, missed));
+        }
+        if self.scene_due.is_some_and(|due| Instant::now() >= due) {
+            events.push(self.lose(Loss::Stale));
+        }
+        events
     }
 
     fn event(&mut self, message: Message, missed: u16) -> Option<Event> {
@@ -252,49 +207,83 @@ impl GestureUnit {
             Message::Why(why) => Some(Event::Why(Box::new(why))),
             Message::WhyActions(why) => Some(Event::WhyActions(Box::new(why))),
             Message::Fault(fault) => Some(Event::Fault(fault)),
+            Message::Loaded(Loaded::Scene(version)) if version == self.scene.version() => {
+                self.scene_due = None;
+                None
+            }
             Message::Statistics(statistics) => Some(Event::Statistics(statistics)),
             _ => None,
         }
     }
 
     fn lose(&mut self, loss: Loss) -> Event {
-        self.conversation = None;
+        if matches!(loss, Loss::Wire(_)) {
+            self.conversation = None;
+        }
+        self.loaded = false;
+        self.scene_due = None;
         Event::Lost(loss)
     }
 
-    /// Tries to reach a lost unit.
+    /// Tries to reach a lost unit: over the wire that is there, then over a new one.
     fn reach(&mut self, patience: Duration) -> Vec<Event> {
         let wait = HEARTBEAT.saturating_sub(self.beat.elapsed()).min(patience);
         std::thread::sleep(wait);
         if self.beat.elapsed() < HEARTBEAT {
             return Vec::new();
         }
-        self.beat = Instant::now();
-        let reached = open(&self.address)
-            .map_err(UnitError::from)
-            .and_then(|wire| {
-                let mut conversation = Conversation::new(wire);
-                let hello =
-                    conversation.load(&self.vocabulary, &self.scene, &self.configuration)?;
-                Ok((conversation, hello))
-            });
-        let Ok((conversation, hello)) = reached else {
-            return Vec::new();
+        let reached = match self.conversation.take() {
+            Some(conversation) => Ok(conversation),
+            None => (self.open)().map(Conversation::new),
         };
-        self.conversation = Some(conversation);
-        self.hello = hello;
-        self.trust = Trust::new(self.vocabulary.fingerprint(), self.scene.version());
-        vec![Event::Back(hello)]
+        let events = match reached {
+            Err(_) => Vec::new(),
+            Ok(mut conversation) => {
+                match conversation.load(&self.vocabulary, &self.scene, &self.configuration) {
+                    Ok(hello) => {
+                        self.conversation = Some(conversation);
+                        self.loaded = true;
+                        self.hello = hello;
+                        let (vocabulary, scene) =
+                            (self.vocabulary.fingerprint(), self.scene.version());
+                        self.trust = Trust::new(vocabulary, scene);
+                        vec![Event::Back(hello)]
+                    }
+                    Err(UnitError::NoAnswer | UnitError::Broken(_)) => Vec::new(),
+                    Err(error) => vec![Event::Lost(Loss::Unloadable(error.to_string()))],
+                }
+            }
+        };
+        self.beat = Instant::now();
+        events
     }
 
-    /// Does something with the unit when it is there.
+    /// Does something with the unit when it is there; one that cannot be told counts as lost.
     fn with(
         &mut self,
         act: impl FnOnce(&mut Conversation) -> Result<(), UnitError>,
     ) -> Result<(), UnitError> {
-        match &mut self.conversation {
-            Some(conversation) => act(conversation),
-            None => Err(UnitError::NoAnswer),
+        let Some(conversation) = self.conversation.as_mut().filter(|_| self.loaded) else {
+            return Err(UnitError::NoAnswer);
+        };
+        let done = act(conversation);
+        if let Err(error) = &done {
+            let lost = self.lose(Loss::Wire(error.in_full()));
+            self.happened.push(lost);
         }
+        done
+    }
+}
+
+/// What a fault says about whether the unit can still be relied on.
+fn loss_behind(fault: &Fault) -> Option<Loss> {
+    match fault {
+        Fault::NoHello | Fault::NoVocabulary | Fault::NoScene | Fault::HostLost => {
+            Some(Loss::Forgetful)
+        }
+        Fault::PartOutOfOrder { .. } | Fault::OldScene { .. } | Fault::Scene(_) => {
+            Some(Loss::Stale)
+        }
+        _ => None,
     }
 }

@@ -1,0 +1,158 @@
+//! The person's answer to the unit's question, from what they typed.
+
+use deictic_core::category::Category;
+use deictic_core::decide::Question;
+use deictic_core::large::{Sentence, Word};
+use deictic_core::sentence::{LANGUAGE, SentenceError};
+
+use crate::language::{LanguageError, Listener};
+use crate::understanding::{self, Understood};
+use crate::vocabulary::Lexicon;
+
+/// What a text that was typed while a question is open comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reply {
+    /// It answers the question.
+    Answer(Sentence),
+    /// It is a command of its own, and the question is forgotten.
+    Command(Understood),
+    /// Nothing of what was asked about is meant.
+    Neither,
+}
+
+/// Takes a text for an answer to `question` when it names one of the asked category's options, for a
+/// yes or no where there is but one candidate, and for a command of its own otherwise.
+///
+/// # Errors
+/// [`LanguageError`] for a text that is not understood; the question stays open.
+pub fn reply(
+    text: &str,
+    question: &Question,
+    listener: &Listener<'_>,
+    lexicon: &Lexicon,
+) -> Result<Reply, LanguageError> {
+    let said = text.trim().trim_matches(['.', '!', ',']).to_lowercase();
+    let category = question.category;
+    if said == "no" || said == "none" || said == "neither" {
+        return Ok(Reply::Neither);
+    }
+    if let ["yes" | "yeah" | "ok", ..] = said.split_whitespace().collect::<Vec<_>>()[..]
+        && let [only] = question.candidates[..]
+    {
+        return Ok(Reply::Answer(certainly(category, only, lexicon)?));
+    }
+    let entries = lexicon.entries(category).iter();
+    let named = entries.enumerate().find(|(_, entry)| {
+        entry.name.to_lowercase() == said || entry.spoken().any(|word| word == said)
+    });
+    if let Some((option, _)) = named {
+        let option = u8::try_from(option).unwrap_or(u8::MAX);
+        return Ok(Reply::Answer(certainly(category, option, lexicon)?));
+    }
+    let utterance = listener.understand(text)?;
+    if let [command] = &utterance.commands[..] {
+        let words = command.sentence.words();
+        let speaks_of = |c| {
+            words
+                .iter()
+                .any(|w| w.is_present() && w.category() == Some(c))
+        };
+        if speaks_of(category) && (category == Category::ACTION || !speaks_of(Category::ACTION)) {
+            let mut answer = Sentence::new(LANGUAGE);
+            for word in words.iter().filter(|w| w.category() == Some(category)) {
+                answer.push(word.clone())?;
+            }
+            let others = words.iter().filter(|w| w.is_present()).count();
+            if others == 1 || category != Category::ACTION {
+                return Ok(Reply::Answer(answer));
+            }
+        }
+    }
+    Ok(Reply::Command(understanding::of(text, utterance)))
+}
+
+/// A sentence of one word that is certainly this option.
+///
+/// # Errors
+/// [`SentenceError`] for an option that the lexicon does not have.
+pub fn certainly(
+    category: Category,
+    option: u8,
+    lexicon: &Lexicon,
+) -> Result<Sentence, SentenceError> {
+    let mut likelihoods = vec![0.0; lexicon.entries(category).len()];
+    match likelihoods.get_mut(usize::from(option)) {
+        Some(own) => *own = 1.0,
+        None => return Err(SentenceError::UnknownCategory { word: 0 }),
+    }
+    let mut sentence = Sentence::new(LANGUAGE);
+    sentence.push(Word::certain(category, &likelihoods)?)?;
+    Ok(sentence)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use deictic_core::decide::Reason;
+    use deictic_core::math::argmax;
+
+    fn ask(category: Category, candidates: &[u8]) -> Question {
+        Question {
+            category,
+            reason: Reason::SeveralClear,
+            candidates: candidates.iter().copied().collect(),
+        }
+    }
+
+    fn answered(text: &str, question: &Question) -> Option<(Category, usize)> {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        match reply(text, question, &listener, &lexicon).unwrap() {
+            Reply::Answer(sentence) => {
+                let word = &sentence.words()[0];
+                Some((word.category()?, argmax(word.likelihoods())?))
+            }
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn a_name_a_synonym_and_a_phrase_answer() {
+        let which = ask(Category::OBJECT, &[0, 1]);
+        for text in ["cup", "Mug.", "the cup", "the cup, please"] {
+            assert_eq!(
+                answered(text, &which),
+                Some((Category::OBJECT, 1)),
+                "{text}"
+            );
+        }
+        let what = ask(Category::ACTION, &[3, 4]);
+        assert_eq!(answered("pick", &what), Some((Category::ACTION, 3)));
+        assert_eq!(
+            answered("put it into", &ask(Category::ACTION, &[])).map(|a| a.1),
+            Some(7)
+        );
+    }
+
+    #[test]
+    fn yes_means_the_only_candidate() {
+        let bowl = ask(Category::STORAGE, &[3]);
+        assert_eq!(answered("yes", &bowl), Some((Category::STORAGE, 3)));
+        let lexicon = Lexicon::tabletop().unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        let no = reply("no", &bowl, &listener, &lexicon);
+        assert_eq!(no, Ok(Reply::Neither));
+    }
+
+    #[test]
+    fn a_command_of_its_own_is_no_answer() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        let which = ask(Category::OBJECT, &[0, 1]);
+        let new = reply("push the box", &which, &listener, &lexicon).unwrap();
+        assert!(matches!(new, Reply::Command(Understood::Commands(c)) if c.len() == 1));
+        let never = reply("do not pick the cup", &which, &listener, &lexicon).unwrap();
+        assert!(matches!(never, Reply::Command(Understood::Nothing(_))));
+        assert!(reply("xyzzy", &which, &listener, &lexicon).is_err());
+    }
+}

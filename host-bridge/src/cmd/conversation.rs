@@ -1,0 +1,189 @@
+//! What a person types, given to a session; and how it ended.
+
+use deictic_core::decide::Outcome;
+
+use super::printer::Printer;
+use crate::answering::{Reply, reply};
+use crate::language::{Listener, text_of};
+use crate::robot::Event;
+use crate::session::{Happening, Session};
+use crate::showing::showing;
+use crate::understanding::{self, Understood, mentions_stop};
+
+/// How the last command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The robot has done it.
+    Done,
+    /// It was not done, or not to its end.
+    NotDone,
+}
+
+/// What is between said and shown in a line.
+const BETWEEN: &str = "//";
+
+/// Takes what is typed to a session.
+pub struct Conversation<'a> {
+    listener: &'a Listener<'a>,
+    printer: Printer,
+    waiting: std::collections::VecDeque<String>,
+    last: Ending,
+    quits: bool,
+}
+
+impl<'a> Conversation<'a> {
+    /// Nothing was typed yet.
+    pub fn new(listener: &'a Listener<'a>, printer: Printer) -> Self {
+        Self {
+            listener,
+            printer,
+            waiting: std::collections::VecDeque::new(),
+            last: Ending::Done,
+            quits: false,
+        }
+    }
+
+    /// Takes a typed line. One that says stop is carried out at once, others when what was typed
+    /// before is over.
+    pub fn line(&mut self, session: &mut Session<'_>, line: &[u8]) {
+        let text = match text_of(line) {
+            Ok(text) => text.trim(),
+            Err(error) => {
+                self.last = Ending::NotDone;
+                self.printer.not_understood(&error, error.remedy());
+                return;
+            }
+        };
+        if mentions_stop(text, session.lexicon()) {
+            self.waiting.clear();
+            session.stop();
+            self.typed(session, text);
+        } else if !text.is_empty() {
+            self.waiting.push_back(text.to_owned());
+        }
+    }
+
+    /// Takes the next line when the session is ready for it.
+    pub fn next(&mut self, session: &mut Session<'_>) {
+        if session.is_idle()
+            && session.unit().is_there()
+            && let Some(text) = self.waiting.pop_front()
+        {
+            self.typed(session, &text);
+        }
+    }
+
+    fn typed(&mut self, session: &mut Session<'_>, text: &str) {
+        let (said, shown) = match text.split_once(BETWEEN) {
+            None => (text.trim(), ""),
+            Some((said, shown)) => (said.trim(), shown.trim()),
+        };
+        match said {
+            "quit" | "exit" => self.quit(),
+            "help" | "?" => self.printer.help(),
+            "table" => self.printer.table(session),
+            _ => {
+                let given = |text| Some(text).filter(|text: &&str| !text.is_empty());
+                self.take(session, given(said), given(shown));
+            }
+        }
+    }
+
+    /// Takes what was said and shown.
+    pub fn take(&mut self, session: &mut Session<'_>, said: Option<&str>, shown: Option<&str>) {
+        self.printer.heard(said, shown);
+        self.last = Ending::NotDone;
+        if let (Some(text), None, Some(question)) = (said, shown, session.question().cloned()) {
+            match reply(text, &question, self.listener, session.lexicon()) {
+                Err(error) => self.printer.not_understood(&error, error.remedy()),
+                Ok(Reply::Answer(sentence)) => {
+                    if let Err(error) = session.answer(sentence) {
+                        self.printer.not_understood(&error, AGAIN.into());
+                    }
+                }
+                Ok(Reply::Neither) => {
+                    session.stop();
+                    self.printer.nothing("the question is withdrawn");
+                }
+                Ok(Reply::Command(understood)) => self.give(session, understood, None),
+            }
+            return;
+        }
+        let shown = match shown.map(|text| showing(text, session.lexicon())) {
+            Some(Err(error)) => {
+                self.printer.not_understood(&error, error.remedy());
+                return;
+            }
+            Some(Ok(sentence)) => Some(sentence),
+            None => None,
+        };
+        let understood = match said {
+            None => Understood::Commands(Vec::new()),
+            Some(text) => match self.listener.understand(text) {
+                Ok(utterance) => understanding::of(text, utterance),
+                Err(error) => {
+                    self.printer.not_understood(&error, error.remedy());
+                    return;
+                }
+            },
+        };
+        self.give(session, understood, shown);
+    }
+
+    /// Gives sentences to the unit; what is shown belongs to the first that is said.
+    fn give(
+        &mut self,
+        session: &mut Session<'_>,
+        understood: Understood,
+        shown: Option<deictic_core::large::Sentence>,
+    ) {
+        let said = match understood {
+            Understood::Nothing(why) => {
+                self.printer.nothing(&why);
+                return;
+            }
+            Understood::Commands(sentences) => sentences,
+        };
+        let mut said = said.into_iter();
+        for sentence in shown.into_iter().chain(said.next()) {
+            if let Err(error) = session.observe(sentence) {
+                self.printer.not_understood(&error, AGAIN.into());
+                return;
+            }
+        }
+        session.queue(said);
+    }
+
+    /// Keeps account of how commands end.
+    pub fn hear(&mut self, happening: &Happening) {
+        self.last = match happening {
+            Happening::Robot(Event::Done(_)) => Ending::Done,
+            Happening::Robot(Event::Stopped { .. } | Event::Failed { .. })
+            | Happening::Refused { .. }
+            | Happening::Distrusted(_)
+            | Happening::Fault(_)
+            | Happening::NoDecision
+            | Happening::Lost(_)
+            | Happening::Dropped(_) => Ending::NotDone,
+            Happening::Decided { decision, .. } if decision.outcome == Outcome::Repeat => {
+                Ending::NotDone
+            }
+            _ => return,
+        };
+    }
+
+    /// Ends the session when what is going on is over.
+    pub fn quit(&mut self) {
+        self.quits = true;
+    }
+
+    /// How it ended, if it did; of a session for one command `once` that is over.
+    pub fn ending(&self, session: &Session<'_>, once: bool) -> Option<Ending> {
+        let idle = session.is_idle() && self.waiting.is_empty();
+        let over = self.quits || (once && session.question().is_none());
+        (idle && over).then_some(self.last)
+    }
+}
+
+/// What to do when the unit could not be told.
+const AGAIN: &str = "wait until the unit is back, and say it again";

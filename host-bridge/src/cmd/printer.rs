@@ -1,0 +1,230 @@
+//! What happens in a session, on the terminal or as JSON lines.
+
+use deictic_core::decide::Outcome;
+use serde_json::{Value, json};
+
+use super::paint;
+use crate::explain::{self, Advice};
+use crate::link::Address;
+use crate::report;
+use crate::robot::Event;
+use crate::scene::Tabletop;
+use crate::session::{Happening, Session};
+use crate::vocabulary::Lexicon;
+
+/// Prints what happens.
+#[derive(Clone, Copy, Debug)]
+pub struct Printer {
+    /// JSON lines instead of text.
+    pub json: bool,
+}
+
+impl Printer {
+    /// One line: what it is about, and what is to be said of it.
+    pub fn line(self, about: &str, text: impl std::fmt::Display) {
+        if !self.json {
+            anstream::println!("{} {text}", paint::dim(format!("{about:<8}")));
+        }
+    }
+
+    /// One JSON object.
+    pub fn object(self, value: &Value) {
+        if self.json {
+            anstream::println!("{value}");
+        }
+    }
+
+    fn advice(self, about: &str, event: &str, Advice { what, remedy }: &Advice) {
+        self.line(about, paint::bad(what));
+        self.line("", paint::dim(remedy));
+        self.object(&json!({ "event": event, "why": what, "remedy": remedy }));
+    }
+
+    /// What was understood of a text to do nothing.
+    pub fn nothing(self, why: &str) {
+        self.line("nothing", why);
+        self.object(&json!({ "event": "nothing", "why": why }));
+    }
+
+    /// A text that was not understood.
+    pub fn not_understood(self, what: impl std::fmt::Display, remedy: String) {
+        let what = what.to_string();
+        self.advice("heard", "not-understood", &Advice { what, remedy });
+    }
+
+    /// Who takes part.
+    pub fn greet(self, address: &Address, session: &Session<'_>) {
+        let hello = session.unit().hello();
+        let holds = hello.capacities;
+        self.line(
+            "unit",
+            format!(
+                "{} at {address}: protocol {}, schema {:#010x}, boot {:#x}, {} options, {} things, {} words",
+                paint::good("ready"), hello.version, hello.schema, hello.boot, holds.options,
+                holds.entities, holds.words
+            ),
+        );
+        self.object(&json!({
+            "event": "ready", "board": address.to_string(), "version": hello.version,
+            "schema": hello.schema, "boot": hello.boot, "scene": session.table().version(),
+        }));
+        self.table(session);
+    }
+
+    /// What is on the table.
+    pub fn table(self, session: &Session<'_>) {
+        let lexicon = session.lexicon();
+        for thing in session.table().scene().entities() {
+            let name = lexicon.option_name(thing.category, thing.option);
+            let features = lexicon.features().iter().zip(&thing.features);
+            let features = features.filter(|(_, f)| **f > 0.0).map(|(name, f)| {
+                if *f < 1.0 {
+                    format!("{name} {f}")
+                } else {
+                    name.clone()
+                }
+            });
+            let features: Vec<_> = features.collect();
+            let [x, y, z] = thing.position;
+            self.line(
+                "table",
+                format!(
+                    "{name:<9} {}",
+                    paint::dim(format!("({x:.2}, {y:.2}, {z:.2}) {}", features.join(", ")))
+                ),
+            );
+            self.object(&json!({
+                "event": "thing", "category": lexicon.category_name(thing.category),
+                "name": name, "position": thing.position, "features": features,
+            }));
+        }
+    }
+
+    /// What can be typed.
+    pub fn help(self) {
+        self.line("help", "pick the can                    say it");
+        self.line("", "// pick can                     show it");
+        self.line("", "put it there // put-into drawer say and show it");
+        self.line("", "stop                            stand still, at once");
+        self.line("", "table, help, quit");
+    }
+
+    /// What was said and shown.
+    pub fn heard(self, said: Option<&str>, shown: Option<&str>) {
+        let or_nothing = |text: Option<&str>| text.unwrap_or("-").to_owned();
+        self.line("said", or_nothing(said));
+        self.line("shown", or_nothing(shown));
+        self.object(&json!({ "event": "heard", "said": said, "shown": shown }));
+    }
+
+    /// Something that happened.
+    pub fn happening(self, happening: &Happening, table: &Tabletop, lexicon: &Lexicon) {
+        match happening {
+            Happening::Decided {
+                number,
+                scene,
+                decision,
+            } => {
+                let text = match &decision.outcome {
+                    Outcome::Execute(intent) => paint::good(explain::intent(intent, lexicon)),
+                    Outcome::Ask(_) => paint::ask("to ask"),
+                    Outcome::Repeat => paint::bad("nothing was understood; say and show it again"),
+                };
+                self.line("decided", text);
+                let report = report::decision(decision, table.scene(), lexicon);
+                self.object(&json!({
+                    "event": "decided", "number": number, "scene": scene, "decision": report,
+                }));
+            }
+            Happening::Reasons(reasons) => {
+                for line in reasons.to_string().lines() {
+                    self.line("because", paint::dim(line));
+                }
+                self.object(&json!({ "event": "because", "why": reasons }));
+            }
+            Happening::Asked { question, text } => {
+                self.line("asks", paint::ask(text));
+                let names = question.candidates.iter();
+                let names: Vec<_> = names
+                    .map(|&c| lexicon.option_name(question.category, c))
+                    .collect();
+                let category = lexicon.category_name(question.category);
+                self.object(&json!({
+                    "event": "asked", "category": category, "candidates": names, "text": text,
+                }));
+            }
+            Happening::Distrusted(distrust) => {
+                let advice = explain::distrust(distrust);
+                self.advice("not done", "distrusted", &advice);
+            }
+            Happening::Accepted(intent) => {
+                self.object(&json!({
+                    "event": "accepted", "intent": report::intent(intent, lexicon),
+                }));
+            }
+            Happening::Refused { intent, refusal } => {
+                let (what, remedy) = (refusal.to_string(), refusal.remedy());
+                self.line("robot", paint::bad(format!("refuses: {what}")));
+                self.line("", paint::dim(&remedy));
+                self.object(&json!({
+                    "event": "refused", "intent": report::intent(intent, lexicon),
+                    "why": what, "remedy": remedy,
+                }));
+            }
+            Happening::Robot(event) => self.robot(event),
+            Happening::Table(version) => {
+                self.object(&json!({ "event": "table", "version": version }));
+            }
+            Happening::BadTable(error) => {
+                self.advice("table", "bad-table", &explain::scene_error(error));
+            }
+            Happening::Fault(fault) => self.advice("unit", "fault", &explain::fault(fault)),
+            Happening::NoDecision => self.advice(
+                "unit",
+                "no-decision",
+                &Advice {
+                    what: "the unit did not decide; a frame may have been lost".into(),
+                    remedy: "say it again".into(),
+                },
+            ),
+            Happening::Lost(loss) => self.advice("unit", "lost", &explain::loss(loss)),
+            Happening::Back(hello) => {
+                self.line("unit", paint::good("is back and knows everything again"));
+                self.object(&json!({ "event": "back", "boot": hello.boot }));
+            }
+            Happening::Dropped(count) => {
+                self.line(
+                    "dropped",
+                    format!("{count} commands that were still to come"),
+                );
+                self.object(&json!({ "event": "dropped", "count": count }));
+            }
+        }
+    }
+
+    fn robot(self, event: &Event) {
+        match event {
+            Event::Begun {
+                step, number, of, ..
+            } => {
+                self.line("robot", format!("{number}/{of} {step}"));
+                self.object(&json!({
+                    "event": "step", "step": step, "number": number, "of": of,
+                }));
+            }
+            Event::Changed { .. } => {}
+            Event::Done(_) => {
+                self.line("robot", paint::good("done"));
+                self.object(&json!({ "event": "done" }));
+            }
+            Event::Stopped { step, .. } => {
+                self.line("robot", paint::ask(format!("stopped at: {step}")));
+                self.object(&json!({ "event": "stopped", "step": step }));
+            }
+            Event::Failed { why, .. } => {
+                self.line("robot", paint::bad(format!("failed: {why}")));
+                self.object(&json!({ "event": "failed", "why": why }));
+            }
+        }
+    }
+}

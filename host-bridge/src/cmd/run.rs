@@ -1,0 +1,175 @@
+//! `deictic run`: a unit, a robot, and a person who types.
+
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::time::Duration;
+
+use clap::{Args, ValueEnum};
+use deictic_core::protocol::message::Configuration;
+use deictic_core::time::Micros;
+use miette::{Context, IntoDiagnostic, Result};
+
+use super::conversation::{Conversation, Ending};
+use super::files::Files;
+use super::lines::{Lines, Typed};
+use super::printer::Printer;
+use super::profile::Choice;
+use super::{advice, paint};
+use crate::language::Listener;
+use crate::link::{self, Address};
+use crate::robot::sim::Sim;
+use crate::session::Session;
+
+/// How long one turn waits for the unit: a typed stop is at the robot within this.
+const TURN: Duration = Duration::from_millis(10);
+
+/// Run a session: what is said and shown goes to the unit, what it decides is done by the robot
+///
+/// ```text
+/// $ deictic run --board qemu
+/// > pick the can                     said
+/// > // pick can                      shown
+/// > put it there // put-into drawer  said and shown
+/// > stop
+/// ```
+///
+/// Without --say and --show, lines are read from standard input until its end or `quit`. What is
+/// shown is typed as in `deictic decide --show`. With them, one command is given; the exit code is 0
+/// when it was done and 2 when it was not.
+#[derive(Args, Clone, Debug)]
+#[command(verbatim_doc_comment)]
+pub struct Run {
+    /// The unit: serial:PORT[@BAUD], tcp:HOST:PORT, qemu, or inside for none at all
+    #[arg(long, value_name = "ADDRESS")]
+    board: Address,
+    /// The robot
+    #[arg(long, value_enum, default_value_t = Arm::Sim)]
+    robot: Arm,
+    /// How many times as fast as a careful arm the simulated one moves
+    #[arg(long, default_value_t = 1.0)]
+    haste: f32,
+    #[command(flatten)]
+    files: Files,
+    /// Say this, and end when it is done
+    #[arg(long, value_name = "TEXT")]
+    say: Option<String>,
+    /// Show this, and end when it is done
+    #[arg(long, value_name = "TEXT")]
+    show: Option<String>,
+    #[command(flatten)]
+    choice: Choice,
+    /// How long the unit waits for what is shown after it heard what is said, and the other way
+    /// round, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 1_000)]
+    window: u64,
+    /// Print why the unit decided as it did
+    #[arg(long)]
+    explain: bool,
+    /// Print JSON lines, for programs
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Arm {
+    /// The simulated Panda
+    Sim,
+}
+
+impl Run {
+    /// Runs the command; gives its exit code.
+    ///
+    /// # Errors
+    /// A report with what was wrong and what to do.
+    pub fn run(self) -> Result<u8> {
+        let (lexicon, table) = self.files.read()?;
+        let listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        let configuration = Configuration {
+            profile: self.choice.profile(),
+            window: Micros::from_millis(self.window),
+            explain: self.explain,
+            ..Configuration::DEFAULT
+        };
+        let robot = match self.robot {
+            Arm::Sim => Box::new(Sim::new(self.haste)),
+        };
+        let address = self.board.clone();
+        let opener = Box::new(move || link::open(&address));
+        let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
+        let interrupts = interrupts()?;
+        let printer = Printer { json: self.json };
+        printer.greet(&self.board, &session);
+        let mut conversation = Conversation::new(&listener, printer);
+        let mut lines = None;
+        if self.say.is_some() || self.show.is_some() {
+            let (say, show) = (self.say.as_deref(), self.show.as_deref());
+            conversation.take(&mut session, say, show);
+        } else {
+            lines = Some(Lines::of_stdin());
+        }
+        let once = lines.is_none();
+        let mut prompted = false;
+        loop {
+            if let Some(lines) = &lines {
+                match lines.next() {
+                    Typed::Line(line) => {
+                        prompted = false;
+                        conversation.line(&mut session, &line);
+                    }
+                    Typed::End => conversation.quit(),
+                    Typed::Nothing => {}
+                }
+            }
+            conversation.next(&mut session);
+            match interrupts.swap(0, Ordering::Relaxed) {
+                0 => {}
+                _ if session.is_idle() => conversation.quit(),
+                _ => {
+                    session.stop();
+                    printer.line("stopped", "Ctrl-C again ends the session");
+                }
+            }
+            for happening in session.turn(TURN) {
+                conversation.hear(&happening);
+                printer.happening(&happening, session.table(), &lexicon);
+            }
+            match conversation.ending(&session, once) {
+                Some(ending) => return Ok(exit_code(ending)),
+                None if session.is_idle() && !once && !prompted && self.prompts() => {
+                    anstream::print!("{} ", paint::dim(">"));
+                    let _ = std::io::Write::flush(&mut anstream::stdout());
+                    prompted = true;
+                }
+                None => {}
+            }
+            // A question is answered from standard input, whoever asked the first command.
+            if session.question().is_some() && lines.is_none() {
+                lines = Some(Lines::of_stdin());
+            }
+        }
+    }
+
+    fn prompts(&self) -> bool {
+        !self.json && std::io::stdin().is_terminal() && std::io::stdout().is_terminal()
+    }
+}
+
+fn exit_code(ending: Ending) -> u8 {
+    match ending {
+        Ending::Done => 0,
+        Ending::NotDone => 2,
+    }
+}
+
+/// Ctrl-C, counted instead of ending the program in the middle of a motion.
+fn interrupts() -> Result<Arc<AtomicU8>> {
+    let count = Arc::new(AtomicU8::new(0));
+    let counted = Arc::clone(&count);
+    ctrlc::set_handler(move || {
+        counted.store(1, Ordering::Relaxed);
+    })
+    .into_diagnostic()
+    .wrap_err("Ctrl-C cannot be watched for")?;
+    Ok(count)
+}

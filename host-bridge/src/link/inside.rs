@@ -1,0 +1,61 @@
+//! The unit's own state machine in this process, for trying things without a board.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use deictic_core::board::Unit;
+use deictic_core::time::Micros;
+
+use super::Wire;
+
+/// A unit of a board's capacities with nothing between it and the bridge.
+pub struct Inside {
+    unit: Box<Unit>,
+    began: Instant,
+}
+
+impl Inside {
+    /// A unit that has just started.
+    #[must_use]
+    pub fn start() -> Self {
+        Self {
+            unit: Box::new(Unit::new(std::process::id())),
+            began: Instant::now(),
+        }
+    }
+
+    fn now(&self) -> Micros {
+        Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX))
+    }
+}
+
+impl Wire for Inside {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let now = self.now();
+        self.unit.poll(now);
+        self.unit.receive(now, bytes);
+        Ok(())
+    }
+
+    fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
+        let until = Instant::now() + patience;
+        loop {
+            let now = self.now();
+            self.unit.poll(now);
+            let waiting = self.unit.outgoing();
+            if !waiting.is_empty() {
+                let taken = waiting.len().min(buffer.len());
+                for (to, from) in buffer.iter_mut().zip(waiting) {
+                    *to = *from;
+                }
+                self.unit.sent(taken);
+                return Ok(taken);
+            }
+            let Some(left) = until.checked_duration_since(Instant::now()) else {
+                return Ok(0);
+            };
+            let wake = Duration::from_micros(self.unit.next_wake().since(now).0);
+            std::thread::sleep(wake.min(left));
+        }
+    }
+}

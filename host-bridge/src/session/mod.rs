@@ -1,0 +1,385 @@
+//! A session: a unit that decides, a robot that acts, and the table between them. It prints nothing
+//! and asks nobody; whoever runs it hands in sentences and reads what happened.
+//!
+//! The robot moves only on an execution that the unit made of the present scene and vocabulary, in
+//! sequence and complete ([`crate::unit::Distrust`] says what else there is), and it stops as soon as
+//! the unit is lost. A stop goes to the robot at once, and to the unit as well.
+
+mod happening;
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+use deictic_core::decide::{Outcome, Question};
+use deictic_core::large::{Intent, Sentence};
+use deictic_core::protocol::message::{Configuration, Decided, RobotState, RobotStatus};
+use deictic_core::time::Micros;
+use deictic_core::unit::pairing::ANSWER;
+
+use crate::explain;
+use crate::explain::reasons::Reasons;
+use crate::robot::{self, Command, CommandId, Robot, World};
+use crate::scene::Tabletop;
+use crate::understanding::is_stop;
+use crate::unit::{self, GestureUnit, Opener, UnitError};
+use crate::vocabulary::Lexicon;
+
+pub use happening::Happening;
+
+/// How long after the pairing window a decision may take before it counts as missing.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// What an answer weighs beside what it was asked about: it must prevail over all other modalities
+/// at their surest.
+pub const ANSWER_WEIGHT: f32 = 10.0;
+
+/// A command that the robot is doing, and the decision it comes from.
+struct Doing {
+    id: CommandId,
+    decision: u32,
+}
+
+/// A unit, a robot and a table.
+pub struct Session<'a> {
+    lexicon: &'a Lexicon,
+    unit: GestureUnit,
+    robot: Box<dyn Robot>,
+    table: Tabletop,
+    configuration: Configuration,
+    began: Instant,
+    run: u32,
+    commands: u32,
+    doing: Option<Doing>,
+    /// The decision that asked, and what.
+    question: Option<(u32, Question)>,
+    /// Until when a decision is to be there.
+    due: Option<Instant>,
+    /// What is still to be said to the unit, once the robot is ready for more.
+    queue: VecDeque<Sentence>,
+    /// The reasons that are arriving, and until when they are waited for.
+    reasons: Option<(Reasons, Instant)>,
+    happened: Vec<Happening>,
+}
+
+impl<'a> Session<'a> {
+    /// Connects to a unit and loads it.
+    ///
+    /// # Errors
+    /// [`UnitError`] with what to do about it.
+    pub fn open(
+        opener: Opener,
+        robot: Box<dyn Robot>,
+        table: Tabletop,
+        lexicon: &'a Lexicon,
+        mut configuration: Configuration,
+    ) -> Result<Self, UnitError> {
+        if let Some(weight) = configuration.profile.weights.get_mut(usize::from(ANSWER)) {
+            *weight = ANSWER_WEIGHT;
+        }
+        let unit = GestureUnit::over(opener, lexicon.vocabulary(), table.scene(), configuration)?;
+        Ok(Self {
+            lexicon,
+            unit,
+            robot,
+            table,
+            configuration,
+            began: Instant::now(),
+            run: std::process::id(),
+            commands: 0,
+            doing: None,
+            question: None,
+            due: None,
+            queue: VecDeque::new(),
+            reasons: None,
+            happened: Vec::new(),
+        })
+    }
+
+    /// The table as it is now.
+    #[must_use]
+    pub fn table(&self) -> &Tabletop {
+        &self.table
+    }
+
+    /// The names of everything.
+    #[must_use]
+    pub fn lexicon(&self) -> &'a Lexicon {
+        self.lexicon
+    }
+
+    /// The unit.
+    #[must_use]
+    pub fn unit(&self) -> &GestureUnit {
+        &self.unit
+    }
+
+    /// The question that waits for the person's answer.
+    #[must_use]
+    pub fn question(&self) -> Option<&Question> {
+        self.question.as_ref().map(|(_, question)| question)
+    }
+
+    /// What is in the robot's hand.
+    #[must_use]
+    pub fn holding(&self) -> Option<&str> {
+        self.robot.holding()
+    }
+
+    /// How many percent of its command the robot has done, while it is doing one.
+    #[must_use]
+    pub fn progress(&self) -> Option<u8> {
+        self.robot.progress(self.now()).map(|(_, percent)| percent)
+    }
+
+    /// Whether nothing is going on: no decision is waited for, the robot stands still, nothing is
+    /// queued. A question may be open.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        self.due.is_none()
+            && self.doing.is_none()
+            && self.queue.is_empty()
+            && self.reasons.is_none()
+            && self.happened.is_empty()
+    }
+
+    /// Tells the unit what a modality observed, at once. A clear stop stops the robot first.
+    ///
+    /// # Errors
+    /// [`UnitError`] when the unit is not there; a stop has been carried out all the same.
+    pub fn observe(&mut self, sentence: Sentence) -> Result<(), UnitError> {
+        if is_stop(&sentence, self.lexicon, &self.configuration.profile) {
+            self.stop();
+        }
+        self.question = None;
+        self.unit.observe(sentence)?;
+        let window = Duration::from_micros(self.configuration.window.0);
+        self.due = Some(Instant::now() + window + PATIENCE);
+        Ok(())
+    }
+
+    /// Tells the unit further sentences one by one, each when the robot is done with the one before.
+    /// They are dropped as soon as one of them is not executed to its end.
+    pub fn queue(&mut self, sentences: impl IntoIterator<Item = Sentence>) {
+        self.queue.extend(sentences);
+    }
+
+    /// Tells the unit the answer to its question.
+    ///
+    /// # Errors
+    /// [`UnitError`] when the unit is not there.
+    pub fn answer(&mut self, sentence: Sentence) -> Result<(), UnitError> {
+        let Some((decision, _)) = self.question.take() else {
+            return self.observe(sentence);
+        };
+        self.unit.answer(decision, sentence)?;
+        self.due = Some(Instant::now() + PATIENCE);
+        Ok(())
+    }
+
+    /// Stops the robot at once, without asking the unit, and drops what was still to come.
+    pub fn stop(&mut self) {
+        self.robot.stop(self.now());
+        self.question = None;
+        self.drop_queue();
+    }
+
+    /// Lets things happen, waiting up to `patience` for the first of them. Call it often: it keeps
+    /// the unit and the robot going.
+    pub fn turn(&mut self, patience: Duration) -> Vec<Happening> {
+        self.hear_robot();
+        let patience = if self.happened.is_empty() {
+            patience
+        } else {
+            Duration::ZERO
+        };
+        for event in self.unit.poll(patience) {
+            self.hear_unit(event);
+        }
+        if self.due.is_some_and(|due| Instant::now() >= due) {
+            self.due = None;
+            self.happened.push(Happening::NoDecision);
+            self.drop_queue();
+        }
+        if self
+            .reasons
+            .as_ref()
+            .is_some_and(|(_, until)| Instant::now() >= *until)
+        {
+            self.tell_reasons();
+        }
+        let ready = self.due.is_none() && self.doing.is_none() && self.question.is_none();
+        if ready
+            && self.unit.is_there()
+            && let Some(next) = self.queue.pop_front()
+            && self.observe(next).is_err()
+        {
+            self.drop_queue();
+        }
+        std::mem::take(&mut self.happened)
+    }
+
+    fn now(&self) -> Micros {
+        Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX))
+    }
+
+    fn tell_reasons(&mut self) {
+        let reasons = self.reasons.take().map(|(reasons, _)| Box::new(reasons));
+        self.happened.extend(reasons.map(Happening::Reasons));
+    }
+
+    fn drop_queue(&mut self) {
+        if !self.queue.is_empty() {
+            self.happened.push(Happening::Dropped(self.queue.len()));
+            self.queue.clear();
+        }
+    }
+
+    fn hear_unit(&mut self, event: unit::Event) {
+        match event {
+            unit::Event::Decision { decided, trust } => {
+                self.due = None;
+                self.decided(*decided, trust);
+            }
+            unit::Event::WhyActions(why) => {
+                if let Some((reasons, _)) = &mut self.reasons {
+                    reasons.add_actions(&why, self.lexicon);
+                }
+            }
+            unit::Event::Why(why) => {
+                if let Some((reasons, _)) = &mut self.reasons {
+                    reasons.add(&why, self.lexicon);
+                }
+            }
+            // Asked for after every decision that is explained, so that all reasons are before it.
+            unit::Event::Statistics(_) => self.tell_reasons(),
+            unit::Event::Fault(fault) => {
+                self.due = None;
+                self.happened.push(Happening::Fault(fault));
+                self.drop_queue();
+            }
+            unit::Event::Lost(loss) => {
+                self.robot.stop(self.now());
+                self.due = None;
+                self.question = None;
+                self.reasons = None;
+                self.happened.push(Happening::Lost(loss));
+                self.drop_queue();
+            }
+            unit::Event::Back(hello) => self.happened.push(Happening::Back(hello)),
+        }
+    }
+
+    fn decided(&mut self, decided: Decided<16>, trust: Result<(), unit::Distrust>) {
+        let number = decided.number;
+        let decision = decided.decision;
+        self.happened.push(Happening::Decided {
+            number,
+            scene: decided.scene,
+            decision: Box::new(decision.clone()),
+        });
+        let stops = match &decision.outcome {
+            Outcome::Execute(intent) => Some(intent.action) == self.lexicon.vocabulary().stop(),
+            _ => false,
+        };
+        if self.configuration.explain && !stops {
+            self.reasons = Some((Reasons::default(), Instant::now() + PATIENCE));
+            // A unit that cannot be told is lost, which is an event of its own.
+            let _ = self.unit.ask_statistics();
+        }
+        if stops {
+            // Whatever frames were lost before it: standing still is always safe.
+            self.stop();
+        } else if let Err(distrust) = trust {
+            self.happened.push(Happening::Distrusted(distrust));
+            self.drop_queue();
+            self.report(number, RobotState::Refused);
+            return;
+        }
+        match decision.outcome {
+            Outcome::Execute(intent) => self.execute(number, decided.scene, intent),
+            Outcome::Ask(question) => {
+                let best = decision.best.as_ref();
+                let scene = self.table.scene();
+                let text = explain::question(&question, best, scene, self.lexicon);
+                self.question = Some((number, question.clone()));
+                self.happened.push(Happening::Asked { question, text });
+                self.drop_queue();
+            }
+            Outcome::Repeat => self.drop_queue(),
+        }
+    }
+
+    fn execute(&mut self, decision: u32, scene: u32, intent: Intent) {
+        self.hear_robot();
+        self.commands = self.commands.saturating_add(1);
+        let id = CommandId {
+            run: self.run,
+            number: self.commands,
+        };
+        let command = Command { id, intent, scene };
+        let world = World {
+            table: &self.table,
+            lexicon: self.lexicon,
+        };
+        let now = self.now();
+        match self.robot.begin(now, &command, world) {
+            Ok(()) => {
+                self.doing = Some(Doing { id, decision });
+                self.happened.push(Happening::Accepted(command.intent));
+                self.report(decision, RobotState::Running(0));
+            }
+            Err(refusal) => {
+                let intent = command.intent;
+                self.happened.push(Happening::Refused { intent, refusal });
+                self.drop_queue();
+                if self.doing.is_none() {
+                    self.report(decision, RobotState::Refused);
+                }
+            }
+        }
+        self.hear_robot();
+    }
+
+    fn hear_robot(&mut self) {
+        let now = self.now();
+        for event in self.robot.poll(now) {
+            self.happened.push(Happening::Robot(event.clone()));
+            let mine = |id: &CommandId| self.doing.as_ref().filter(|d| d.id == *id);
+            match &event {
+                robot::Event::Begun { id, .. } => {
+                    if let Some(decision) = mine(id).map(|d| d.decision) {
+                        let percent = self.robot.progress(now).map_or(0, |(_, p)| p);
+                        self.report(decision, RobotState::Running(percent));
+                    }
+                }
+                robot::Event::Changed { changes, .. } => {
+                    match self.table.apply(changes, self.lexicon) {
+                        Err(error) => self.happened.push(Happening::BadTable(error)),
+                        Ok(()) => {
+                            self.happened.push(Happening::Table(self.table.version()));
+                            // A unit that is not there gets it when it comes back.
+                            let _ = self.unit.set_scene(self.table.scene());
+                        }
+                    }
+                }
+                robot::Event::Done(id) => self.over(*id, RobotState::Done),
+                robot::Event::Stopped { id, .. } => self.over(*id, RobotState::Stopped),
+                robot::Event::Failed { id, .. } => self.over(*id, RobotState::Failed),
+            }
+        }
+    }
+
+    fn over(&mut self, id: CommandId, state: RobotState) {
+        if let Some(doing) = self.doing.take_if(|d| d.id == id) {
+            if state != RobotState::Done {
+                self.drop_queue();
+            }
+            self.report(doing.decision, state);
+        }
+    }
+
+    fn report(&mut self, decision: u32, state: RobotState) {
+        // A unit that is not there has nothing to do with this command any more.
+        let _ = self.unit.report(RobotStatus { decision, state });
+    }
+}

@@ -1,0 +1,68 @@
+//! Why a conversation with a unit cannot be.
+
+use deictic_core::protocol::message::Fault;
+
+use crate::link::WireError;
+
+/// A conversation could not be opened.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum UnitError {
+    /// The wire could not be opened.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Wire(#[from] WireError),
+    /// The wire failed.
+    #[error("the link to the unit failed")]
+    #[diagnostic(help(
+        "look at the cable and the board's power; the bridge connects again by itself once it runs"
+    ))]
+    Broken(#[source] std::io::Error),
+    /// The unit did not answer.
+    #[error("nothing that speaks our protocol answers")]
+    #[diagnostic(help(
+        "does the board run the unit's firmware, and is it the right port and speed?"
+    ))]
+    NoAnswer,
+    /// The unit speaks another version of the protocol.
+    #[error(
+        "the unit speaks version {} of the protocol (schema {:#010x}), this bridge version {} (schema {:#010x})",
+        .unit.0, .unit.1, .host.0, .host.1
+    )]
+    #[diagnostic(help(
+        "flash the firmware that belongs to this bridge: `cargo run --release` in firmware/, or use the bridge \
+         that belongs to the firmware"
+    ))]
+    Schema {
+        /// The unit's version and schema.
+        unit: (u16, u32),
+        /// This bridge's.
+        host: (u16, u32),
+    },
+    /// The vocabulary or scene is larger than the unit can hold.
+    #[error("the unit holds {capacity} {what}, and there are {wanted}")]
+    #[diagnostic(help(
+        "leave some out, or flash a unit built with larger capacities (core/src/capacity.rs)"
+    ))]
+    TooLarge {
+        /// Of what there is too much.
+        what: &'static str,
+        /// How many the unit holds.
+        capacity: u16,
+        /// How many there are.
+        wanted: usize,
+    },
+    /// The unit refused what it was told.
+    #[error("the unit refuses what it was told: {}", crate::explain::fault(.0).what)]
+    #[diagnostic(help("{}", crate::explain::fault(.0).remedy))]
+    Refused(Fault),
+}
+
+impl UnitError {
+    /// It and its cause in one line.
+    pub(super) fn in_full(&self) -> String {
+        match std::error::Error::source(self) {
+            Some(cause) => format!("{self}: {cause}"),
+            None => self.to_string(),
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! What a unit has said, or what has become of it.
+
+use deictic_core::protocol::message::{Decided, Fault, Hello, Statistics, Why, WhyActions};
+
+use super::trust::Distrust;
+
+/// What a unit has said, or what has become of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// It has decided; `trust` says whether an execution may go to the robot.
+    Decision {
+        /// What it has decided.
+        decided: Box<Decided<16>>,
+        /// Why it must not be acted upon, if so.
+        trust: Result<(), Distrust>,
+    },
+    /// Why: one category.
+    Why(Box<Why<64>>),
+    /// Why: the actions' penalties.
+    WhyActions(Box<WhyActions<64>>),
+    /// Something was not right; nothing was done.
+    Fault(Fault),
+    /// What it has counted.
+    Statistics(Statistics),
+    /// It is gone; nothing can be decided until [`Event::Back`].
+    Lost(Loss),
+    /// It is there, and knows vocabulary, scene and configuration again. What was waiting in it is
+    /// gone.
+    Back(Hello),
+}
+
+/// How a unit was lost.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// The wire failed, with these words of the system's.
+    Wire(String),
+    /// Nothing was heard for [`super::UNIT_LOST`].
+    Silent,
+    /// It has forgotten what it was told: it has started anew, or had not heard this bridge for too
+    /// long.
+    Forgetful,
+    /// It did not take over the new scene.
+    Stale,
+    /// It was reached, but could not be loaded, for this reason.
+    Unloadable(String),
+}
