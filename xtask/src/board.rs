@@ -44,9 +44,9 @@ pub fn build(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
     build_image(toolchain, board.name(), board.name())
 }
 
-/// Builds the measuring image for QEMU.
-pub fn build_bench(toolchain: &Toolchain) -> Result<PathBuf> {
-    build_image(toolchain, "bench", "bench")
+/// Builds one of the images that try the board in QEMU: `bench`, `bits` or `faults`.
+pub fn build_trial(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
+    build_image(toolchain, "bench", name)
 }
 
 fn build_image(toolchain: &Toolchain, feature: &str, image: &str) -> Result<PathBuf> {

@@ -18,6 +18,10 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 /// The oldest compiler that builds the workspace (`rust-version` in Cargo.toml), as (major, minor).
 const OLDEST: (u32, u32) = (1, 95);
 
+/// Debian's compiler, wherever PATH leads.
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+const DEBIAN_CARGO: &str = "/usr/bin/cargo";
+
 /// A compiler that can build the firmware.
 #[derive(Clone, Debug)]
 pub struct Toolchain {
@@ -51,14 +55,18 @@ impl Toolchain {
     /// Finds a compiler or gets one.
     pub fn ensure() -> Result<Self> {
         match std::env::var("DEICTIC_TOOLCHAIN").as_deref() {
-            Ok("rustup") => rustup()?.context(
+            Ok("rustup") => present().or_else(add_target).context(
                 "DEICTIC_TOOLCHAIN=rustup, but the compiler on PATH lacks the target and rustup cannot add it; unset \
                  the variable to use Debian's compiler, or run `rustup target add thumbv7em-none-eabihf` where \
                  downloads work",
             ),
             Ok("debian") => debian(),
             Ok(other) => bail!("DEICTIC_TOOLCHAIN={other}: it is either `rustup` or `debian`"),
-            Err(_) => match rustup()? {
+            // What is there comes before what would have to be fetched.
+            Err(_) => match present()
+                .or_else(|| complete_debian(&mut Vec::new()))
+                .or_else(add_target)
+            {
                 Some(toolchain) => Ok(toolchain),
                 None => debian(),
             },
@@ -82,7 +90,7 @@ impl Toolchain {
     pub fn firmware_cargo(&self, subcommand: &str) -> Command {
         let mut cargo = match &self.route {
             Route::Rustup => process::cargo(),
-            Route::Debian { .. } => Command::new("/usr/bin/cargo"),
+            Route::Debian { .. } => Command::new(DEBIAN_CARGO),
         };
         cargo.current_dir(root().join("firmware")).arg(subcommand);
         // The flags of the host's build, and what cargo and rustup told this program about it.
@@ -99,7 +107,7 @@ impl Toolchain {
             cargo
                 .arg("-Zbuild-std=core")
                 .env("RUSTC_BOOTSTRAP", "1")
-                .env("RUSTC", "/usr/bin/rustc")
+                .env("RUSTC", DEBIAN_RUSTC)
                 .env("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", linker)
                 .env_remove("RUSTC_WRAPPER");
         }
@@ -107,61 +115,40 @@ impl Toolchain {
     }
 }
 
-/// The compiler on PATH, if it has the target or rustup can add it.
-fn rustup() -> Result<Option<Toolchain>> {
-    let Some(sysroot) = output(rustc("rustc").args(["--print", "sysroot"])) else {
-        return Ok(None);
-    };
-    let target = Path::new(sysroot.trim())
-        .join("lib/rustlib")
-        .join(TARGET)
-        .join("lib");
-    if !target.is_dir() {
-        if find("rustup").is_none() {
-            return Ok(None);
-        }
-        eprintln!("setup: adding the target {TARGET} with rustup");
-        let added = process::run(
-            Command::new("rustup")
-                .args(["target", "add", TARGET])
-                .current_dir(root()),
-        );
-        if added.is_err() || !target.is_dir() {
-            eprintln!("setup: rustup cannot add it; falling back to Debian's compiler");
-            return Ok(None);
-        }
-    }
-    let version = version("rustc").context("`rustc -vV` names no release")?;
-    Ok(Some(Toolchain {
+/// The compiler on PATH, if it has the target.
+fn present() -> Option<Toolchain> {
+    let sysroot = output(rustc("rustc").args(["--print", "sysroot"]))?;
+    let libraries = Path::new(sysroot.trim()).join("lib/rustlib").join(TARGET);
+    libraries.join("lib").is_dir().then_some(())?;
+    Some(Toolchain {
         route: Route::Rustup,
-        version: version.release,
-    }))
+        version: version("rustc")?.release,
+    })
+}
+
+/// The compiler on PATH after rustup has added the target, if it can.
+fn add_target() -> Option<Toolchain> {
+    find("rustup")?;
+    eprintln!("setup: adding the target {TARGET} with rustup");
+    let added = process::run(
+        Command::new("rustup")
+            .args(["target", "add", TARGET])
+            .env("RUST_BACKTRACE", "0")
+            .current_dir(root()),
+    );
+    let toolchain = added.ok().and_then(|()| present());
+    if toolchain.is_none() {
+        eprintln!("setup: rustup cannot add it");
+    }
+    toolchain
 }
 
 /// Debian's compiler, installed if it is missing.
 fn debian() -> Result<Toolchain> {
-    const RUSTC: &str = "/usr/bin/rustc";
-    let complete = |packages: &mut Vec<String>| {
-        let version = version(RUSTC).filter(|version| version.number() >= OLDEST);
-        let source = Path::new("/usr/lib/rustlib/src/rust/library/core/Cargo.toml").is_file();
-        if version.is_none() || !source || !Path::new("/usr/bin/cargo").is_file() {
-            packages.extend(["rustc-web", "cargo-web", "rust-web-src"].map(String::from));
-        }
-        let version = version?;
-        // An older linker than the compiler's LLVM keeps code that nothing calls, defmt's default panic among it.
-        let linker = PathBuf::from(format!("/usr/bin/ld.lld-{}", version.llvm));
-        if !linker.is_file() {
-            packages.push(format!("lld-{}", version.llvm));
-        }
-        packages.is_empty().then_some(Toolchain {
-            route: Route::Debian { linker },
-            version: version.release,
-        })
-    };
     // The linker's version is known once the compiler is there, so there may be two rounds.
     for _ in 0..3 {
         let mut missing = Vec::new();
-        if let Some(toolchain) = complete(&mut missing) {
+        if let Some(toolchain) = complete_debian(&mut missing) {
             return Ok(toolchain);
         }
         apt_install(&missing).with_context(|| {
@@ -175,10 +162,29 @@ fn debian() -> Result<Toolchain> {
         })?;
     }
     bail!(
-        "Debian's compiler is installed but still not usable: `{RUSTC} -vV` must say {}.{} or later",
+        "Debian's compiler is installed but still not usable: `{DEBIAN_RUSTC} -vV` must say {}.{} or later",
         OLDEST.0,
         OLDEST.1
     )
+}
+
+/// Debian's compiler if all of it is there; else adds the packages that are missing to `missing`.
+fn complete_debian(missing: &mut Vec<String>) -> Option<Toolchain> {
+    let version = version(DEBIAN_RUSTC).filter(|version| version.number() >= OLDEST);
+    let source = Path::new("/usr/lib/rustlib/src/rust/library/core/Cargo.toml").is_file();
+    if version.is_none() || !source || !Path::new(DEBIAN_CARGO).is_file() {
+        missing.extend(["rustc-web", "cargo-web", "rust-web-src"].map(String::from));
+    }
+    let version = version?;
+    // An older linker than the compiler's LLVM keeps code that nothing calls, defmt's default panic among it.
+    let linker = PathBuf::from(format!("/usr/bin/ld.lld-{}", version.llvm));
+    if !linker.is_file() {
+        missing.push(format!("lld-{}", version.llvm));
+    }
+    missing.is_empty().then_some(Toolchain {
+        route: Route::Debian { linker },
+        version: version.release,
+    })
 }
 
 /// Installs packages, as root or through sudo.

@@ -12,7 +12,7 @@ use crate::toolchain::Toolchain;
 
 /// Boots the measuring image and reads its lines `instructions NAME COUNT`.
 pub fn count(toolchain: &Toolchain) -> Result<BTreeMap<String, u64>> {
-    let image = board::build_bench(toolchain)?;
+    let image = board::build_trial(toolchain, "bench")?;
     let mut command = qemu::command(&image, &Link::Null);
     qemu::count_instructions(&mut command);
     let mut qemu = command

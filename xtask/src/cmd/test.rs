@@ -1,11 +1,12 @@
 use std::process::Command;
 
-use anyhow::Result;
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::board::{self, Board};
 use crate::cmd::{budget::Budget, setup};
 use crate::process::{self, cargo};
+use crate::qemu::{self, Link};
 use crate::toolchain::Toolchain;
 
 /// Check everything: formatting, lints, all tests, both images, budgets.
@@ -29,9 +30,31 @@ impl Test {
         }
         step("tests");
         process::run(&mut tests)?;
+        step("the board decides bit for bit as the host");
+        trial(&toolchain, "bits", true)?;
+        step("a stack that grows too far stops the board");
+        trial(&toolchain, "faults", false)?;
         step("budgets");
         Budget::check(&toolchain)
     }
+}
+
+/// Runs an image that tries something on the board in QEMU, which must end well or, where it is to fail, end with a
+/// failure after having logged why.
+fn trial(toolchain: &Toolchain, name: &str, ends_well: bool) -> Result<()> {
+    let image = board::build_trial(toolchain, name)?;
+    let output = qemu::command(&image, &Link::Null)
+        .output()
+        .context("cannot start QEMU")?;
+    let as_expected = output.status.success() == ends_well && !output.stdout.is_empty();
+    ensure!(
+        as_expected,
+        "the image `{name}` ended with {} on the board: {}{}",
+        output.status,
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    Ok(())
 }
 
 fn step(title: &str) {
