@@ -59,8 +59,8 @@ fn build_image(toolchain: &Toolchain, feature: &str, image: &str) -> Result<Path
         .context("cannot start cargo")?;
     if !output.status.success() {
         bail!(
-            "the image `{image}` does not build; an undefined `deictic_panic_path_reachable` means that some code can \
-             panic: `cargo tree` and the linker's message above show where to look"
+            "the image `{image}` does not build, for the reason above; an undefined `deictic_panic_path_reachable` there \
+             means that some code in the image can panic"
         );
     }
     String::from_utf8_lossy(&output.stdout)
