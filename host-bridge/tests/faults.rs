@@ -1,0 +1,379 @@
+//! Whatever happens to the line or the unit, the robot does not move by it: it stands still or goes
+//! on being stoppable, the person is told, and nothing is done twice.
+
+mod common;
+
+use std::time::Duration;
+
+use common::*;
+use deictic::link::{Inside, Wire};
+use deictic::robot::Event;
+use deictic::session::Happening;
+use deictic::showing::showing;
+use deictic::unit::{Distrust, GestureUnit, Loss, UnitError};
+use deictic::vocabulary::Lexicon;
+use deictic_core::large::{self, Link, Message};
+use deictic_core::protocol::message::{Configuration, Hello};
+use deictic_core::protocol::stuffing::Outbox;
+use deictic_core::protocol::{SCHEMA, VERSION};
+
+fn is_decision(message: &Message) -> bool {
+    matches!(message, Message::Decision(_))
+}
+
+fn lost(h: &Happening) -> bool {
+    matches!(h, Happening::Lost(_))
+}
+
+fn back(h: &Happening) -> bool {
+    matches!(h, Happening::Back(_))
+}
+
+#[test]
+fn a_cable_that_is_pulled_stops_the_robot_and_the_unit_is_loaded_anew() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1.0);
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    until(&mut session, |h| {
+        matches!(h, Happening::Robot(Event::Begun { number: 3, .. }))
+    });
+    cable.with(|line| line.cut = true);
+    let happened = until(&mut session, |h| {
+        matches!(h, Happening::Robot(Event::Stopped { .. }))
+    });
+    assert!(happened.iter().any(lost));
+    assert!(
+        session
+            .observe(showing("pick can", &lexicon).unwrap())
+            .is_err()
+    );
+    cable.with(|line| line.cut = false);
+    let happened = until(&mut session, back);
+    assert!(!moved(&happened));
+    let happened = settle(&mut session);
+    assert!(!moved(&happened), "nothing of before is done after");
+    assert!(cable.with(|line| line.opened) >= 2);
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    let happened = until(&mut session, |h| matches!(h, Happening::Decided { .. }));
+    assert!(happened.iter().any(|h| matches!(
+        h,
+        Happening::Decided { scene, .. } if *scene == session.table().version()
+    )));
+}
+
+#[test]
+fn a_unit_that_falls_silent_is_missed() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1.0);
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    until(&mut session, |h| {
+        matches!(h, Happening::Robot(Event::Begun { .. }))
+    });
+    cable.with(|line| line.dead = true);
+    let happened = until(&mut session, lost);
+    assert!(
+        happened.contains(&Happening::Lost(Loss::Silent)),
+        "{happened:#?}"
+    );
+    assert_eq!(session.progress(), None);
+    cable.with(|line| line.dead = false);
+    until(&mut session, back);
+}
+
+#[test]
+fn a_unit_that_restarts_is_loaded_anew_and_its_first_decision_counts() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    settle(&mut session);
+    cable.restart();
+    let happened = until(&mut session, lost);
+    assert!(
+        happened.contains(&Happening::Lost(Loss::Forgetful)),
+        "{happened:#?}"
+    );
+    until(&mut session, back);
+    session
+        .observe(showing("put-into can bowl", &lexicon).unwrap())
+        .unwrap();
+    let happened = settle(&mut session);
+    assert!(happened.iter().any(is_done), "{happened:#?}");
+}
+
+#[test]
+fn a_decision_that_was_made_before_the_loss_is_not_carried_out_after_it() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    let held: std::sync::Arc<std::sync::Mutex<Vec<u8>>> = Default::default();
+    let keep = held.clone();
+    cable.with(|line| {
+        line.filter = Some(Box::new(move |message, frame| {
+            if is_decision(message) {
+                keep.lock().unwrap().extend(frame);
+                return Vec::new();
+            }
+            let mut all = std::mem::take(&mut *keep.lock().unwrap());
+            // The old decision comes first of all that is heard after the loss.
+            if matches!(message, Message::Hello(_)) {
+                all.extend(frame);
+                return all;
+            }
+            keep.lock().unwrap().extend(all);
+            frame.to_vec()
+        }));
+    });
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    for _ in 0..100 {
+        assert!(!moved(&session.turn(Duration::from_millis(1))));
+    }
+    assert!(!held.lock().unwrap().is_empty());
+    cable.with(|line| line.cut = true);
+    until(&mut session, lost);
+    cable.with(|line| line.cut = false);
+    let happened = until(&mut session, back);
+    assert!(!moved(&happened));
+    let happened = settle(&mut session);
+    assert!(!moved(&happened), "{happened:#?}");
+    assert_eq!(session.holding(), None);
+}
+
+#[test]
+fn a_corrupted_decision_moves_nothing() {
+    for at in [0, 3, 7] {
+        let (cable, lexicon) = (Cable::new(), lexicon());
+        let mut session = open(&cable, &lexicon, 1000.0);
+        cable.with(|line| {
+            line.filter = Some(Box::new(move |message, frame| {
+                let mut frame = frame.to_vec();
+                if is_decision(message) {
+                    let place = at % (frame.len() - 1);
+                    frame[place] ^= 0x11;
+                }
+                frame
+            }));
+        });
+        session
+            .observe(showing("pick can", &lexicon).unwrap())
+            .unwrap();
+        let happened = until(&mut session, |h| *h == Happening::NoDecision);
+        assert!(!moved(&happened), "{happened:#?}");
+        assert_eq!(session.holding(), None);
+        cable.with(|line| line.filter = None);
+        // What follows the gap is distrusted once, and trusted again afterwards.
+        session
+            .observe(showing("pick can", &lexicon).unwrap())
+            .unwrap();
+        settle(&mut session);
+        if session.holding().is_none() {
+            session
+                .observe(showing("pick can", &lexicon).unwrap())
+                .unwrap();
+            settle(&mut session);
+        }
+        assert_eq!(session.holding(), Some("can"));
+    }
+}
+
+#[test]
+fn a_decision_after_lost_frames_is_not_carried_out() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    let mut swallowed = false;
+    cable.with(|line| {
+        line.filter = Some(Box::new(move |message, frame| {
+            if !swallowed && matches!(message, Message::Heartbeat(_)) {
+                swallowed = true;
+                return Vec::new();
+            }
+            // No other frame may tell of the gap before the decision does.
+            if is_decision(message) {
+                frame.to_vec()
+            } else {
+                Vec::new()
+            }
+        }));
+    });
+    for _ in 0..700 {
+        session.turn(Duration::from_millis(1));
+    }
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    let happened = until(&mut session, |h| {
+        matches!(h, Happening::Distrusted(_) | Happening::Lost(_))
+    });
+    assert!(
+        happened
+            .iter()
+            .any(|h| matches!(h, Happening::Distrusted(Distrust::AfterGap { .. }))),
+        "{happened:#?}"
+    );
+    assert!(!moved(&happened));
+}
+
+#[test]
+fn a_frame_that_comes_twice_is_done_once() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    cable.with(|line| {
+        line.filter = Some(Box::new(|_, frame| [frame, frame].concat()));
+    });
+    session
+        .observe(showing("push cube", &lexicon).unwrap())
+        .unwrap();
+    let mut happened = settle(&mut session);
+    for _ in 0..200 {
+        happened.extend(session.turn(Duration::from_millis(1)));
+    }
+    assert_eq!(
+        happened
+            .iter()
+            .filter(|h| matches!(h, Happening::Accepted(_)))
+            .count(),
+        1
+    );
+    assert_eq!(happened.iter().filter(|h| is_done(h)).count(), 1);
+}
+
+#[test]
+fn a_scene_that_does_not_arrive_is_noticed_and_sent_again() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    // Parts of a scene are the only long frames to the unit once it is loaded.
+    cable.with(|line| line.swallow = Some(|bytes| bytes.len() > 150));
+    session
+        .observe(showing("pick can", &lexicon).unwrap())
+        .unwrap();
+    let happened = until(&mut session, lost);
+    assert!(
+        happened.contains(&Happening::Lost(Loss::Stale)),
+        "{happened:#?}"
+    );
+    cable.with(|line| line.swallow = None);
+    until(&mut session, back);
+    session
+        .observe(showing("put-into can drawer", &lexicon).unwrap())
+        .unwrap();
+    let happened = settle(&mut session);
+    assert!(happened.iter().any(is_done), "{happened:#?}");
+}
+
+/// A unit of another version: it answers every Hello with its own.
+struct Other(Box<Link>, Vec<u8>);
+
+impl Wire for Other {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        for &byte in bytes {
+            if let Some(received) = self.0.receive::<Message>(byte) {
+                assert!(
+                    matches!(received.message, Message::Hello(_)),
+                    "it was told more"
+                );
+                let hello = Hello {
+                    version: VERSION + 1,
+                    schema: !SCHEMA,
+                    boot: 1,
+                    capacities: large::Unit::capacities(),
+                };
+                let mut out = Outbox::<256>::new();
+                assert!(
+                    self.0
+                        .send::<Message, 256>(&Message::Hello(hello), &mut out)
+                );
+                self.1.extend(out.waiting());
+            }
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, buffer: &mut [u8], _: Duration) -> std::io::Result<usize> {
+        let n = self.1.len().min(buffer.len());
+        buffer[..n].copy_from_slice(&self.1[..n]);
+        self.1.drain(..n);
+        Ok(n)
+    }
+}
+
+#[test]
+fn another_version_is_named_with_ours_and_told_nothing() {
+    let lexicon = lexicon();
+    let table = table(&lexicon);
+    let opener = Box::new(|| Ok(Box::new(Other(Box::default(), Vec::new())) as Box<dyn Wire>));
+    let (words, scene) = (lexicon.vocabulary(), table.scene());
+    let connected = GestureUnit::over(opener, words, scene, Configuration::DEFAULT);
+    let Err(error) = connected else {
+        panic!("it connected")
+    };
+    assert!(matches!(
+        error,
+        UnitError::Schema {
+            unit: (2, _),
+            host: (1, SCHEMA)
+        }
+    ));
+    let said = error.to_string();
+    assert!(
+        said.contains("version 2") && said.contains("version 1"),
+        "{said}"
+    );
+    let help = miette::Diagnostic::help(&error).unwrap().to_string();
+    assert!(help.contains("flash"), "{help}");
+}
+
+#[test]
+fn what_a_unit_cannot_hold_is_said_before_it_is_sent() {
+    let actions: String = (0..17)
+        .map(|i| format!("[[action]]\nname = \"a{i}\"\n"))
+        .collect();
+    let lexicon = Lexicon::parse("x", &format!("name = \"x\"\n{actions}")).unwrap();
+    let empty = deictic::scene::SceneFile::parse("x", "").unwrap();
+    let table = empty.tabletop(&lexicon).unwrap();
+    let opener = Box::new(|| Ok(Box::new(Inside::start()) as Box<dyn Wire>));
+    let (words, scene) = (lexicon.vocabulary(), table.scene());
+    let connected = GestureUnit::over(opener, words, scene, Configuration::DEFAULT);
+    assert!(matches!(
+        connected.err(),
+        Some(UnitError::TooLarge {
+            capacity: 16,
+            wanted: 17,
+            ..
+        })
+    ));
+}
+
+/// A line on which something that is no unit chatters.
+struct Chatter(u32);
+
+impl Wire for Chatter {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn read(&mut self, buffer: &mut [u8], _: Duration) -> std::io::Result<usize> {
+        for byte in buffer.iter_mut() {
+            self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            *byte = (self.0 >> 24) as u8;
+        }
+        Ok(buffer.len())
+    }
+}
+
+#[test]
+fn what_is_no_unit_is_not_taken_for_one() {
+    let lexicon = lexicon();
+    let table = table(&lexicon);
+    let opener = Box::new(|| Ok(Box::new(Chatter(7)) as Box<dyn Wire>));
+    let (words, scene) = (lexicon.vocabulary(), table.scene());
+    let connected = GestureUnit::over(opener, words, scene, Configuration::DEFAULT);
+    assert!(matches!(connected.err(), Some(UnitError::NoAnswer)));
+}
