@@ -32,6 +32,8 @@ pub(crate) fn start(mut syst: SYST) {
     syst.clear_current();
     syst.enable_interrupt();
     syst.enable_counter();
+    // Until its first reload the counter shows 0, which would read as the end of a tick.
+    while SYST::get_current() == 0 {}
 }
 
 /// Microseconds since the start.
