@@ -1,5 +1,7 @@
 //! From a hand to a gesture sentence.
 
 pub mod frame;
+pub mod shape;
+pub mod shape_table;
 pub mod vector;
 pub mod wire;
