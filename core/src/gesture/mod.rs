@@ -1,6 +1,8 @@
 //! From a hand to a gesture sentence.
 
+pub mod evidence;
 pub mod frame;
+pub mod pointing;
 pub mod shape;
 pub mod shape_table;
 pub mod vector;

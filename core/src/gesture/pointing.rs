@@ -1,0 +1,271 @@
+//! What a pointing finger means: a probability for everything in the scene, and for nothing in it.
+//!
+//! The finger sends a ray, not a line: what lies behind the hand is not meant. A person who aims at
+//! a thing misses it by an angle that is normally distributed in both directions, so a thing at the
+//! angle a has the density exp(-a^2 / 2 s^2) / (2 pi s^2) per solid angle; whoever points at nothing
+//! in the scene does so evenly over the half space in front. Two things near each other share the
+//! probability, whichever is a hair nearer: the word stays flat when it is ambiguous. (The paper's
+//! 1 / (1 + distance) is nearly flat always.)
+
+use heapless::Vec;
+
+use super::frame::HandFrame;
+use super::vector::{self, Vector};
+use crate::math;
+
+/// A half line; metres in the robot's base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it begins.
+    pub origin: Vector,
+    /// A unit vector.
+    pub direction: Vector,
+}
+
+/// Where the hand sensor stands in the robot's base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mount {
+    /// The sensor's x, y and z axis in the base frame, each a unit vector.
+    pub axes: [Vector; 3],
+    /// The sensor's origin in the base frame, m.
+    pub origin: Vector,
+}
+
+impl Mount {
+    /// The sensor lies at the base frame's origin and faces up; the person sits across the table
+    /// and looks at the robot: the sensor's x is the base's y, y is z, z is x.
+    pub const DEFAULT: Self = Self {
+        axes: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+        origin: [0.0; 3],
+    };
+
+    /// A direction of the sensor in the base frame.
+    #[must_use]
+    pub fn turn(&self, [x, y, z]: Vector) -> Vector {
+        let [ax, ay, az] = self.axes;
+        vector::add(
+            vector::add(vector::scale(ax, x), vector::scale(ay, y)),
+            vector::scale(az, z),
+        )
+    }
+
+    /// A point of the sensor, in mm, in the base frame, in m.
+    #[must_use]
+    pub fn place(&self, point: Vector) -> Vector {
+        vector::add(self.origin, self.turn(vector::scale(point, 1e-3)))
+    }
+}
+
+/// The ray of the index finger: from its tip, along the line from its knuckle. `None` without an
+/// index finger.
+#[must_use]
+pub fn ray(frame: &HandFrame, mount: &Mount) -> Option<Ray> {
+    let [_, index, ..] = frame.fingers;
+    let index = index?;
+    let direction = vector::unit(vector::sub(index.tip, index.knuckle))?;
+    Some(Ray {
+        origin: mount.place(index.tip),
+        direction: mount.turn(direction),
+    })
+}
+
+/// The angle by which a ray misses a point, 0..=pi; 0 within a millimetre of its origin.
+#[must_use]
+pub fn miss(ray: &Ray, point: Vector) -> f32 {
+    let to = vector::sub(point, ray.origin);
+    if vector::dot(to, to) < 1e-6 {
+        return 0.0;
+    }
+    vector::angle(ray.direction, to)
+}
+
+/// How well one person aims.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aim {
+    /// Standard deviation of the miss in each of two directions, rad.
+    pub sigma: f32,
+    /// Probability that a pointing hand means nothing in the scene.
+    pub nothing: f32,
+}
+
+impl Aim {
+    /// Five degrees, as people reach who see no cursor, and one gesture in ten at nothing.
+    pub const DEFAULT: Self = Self {
+        sigma: 0.087,
+        nothing: 0.1,
+    };
+}
+
+/// Probabilities of what a ray means.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Meant<const E: usize> {
+    /// One per point.
+    pub points: Vec<f32, E>,
+    /// None of them.
+    pub nothing: f32,
+}
+
+/// What a ray means among `points`, of which those beyond the first `E` are left out. About 500
+/// instructions per point.
+#[must_use]
+pub fn meant<const E: usize>(
+    ray: &Ray,
+    points: impl Iterator<Item = Vector>,
+    aim: &Aim,
+) -> Meant<E> {
+    let variance = (aim.sigma * aim.sigma).clamp(1e-6, 1.0);
+    let mut meant = Meant {
+        points: Vec::new(),
+        nothing: 1.0,
+    };
+    for point in points.take(E) {
+        let angle = miss(ray, point);
+        // Full: `take` has kept the rest away.
+        let _ = meant
+            .points
+            .push(math::exp(-angle * angle / (2.0 * variance)));
+    }
+    let nothing = math::clamp_unit(aim.nothing).clamp(1e-3, 0.999);
+    let count = meant.points.len().max(1) as f32;
+    // Densities against that of the half space, 1 / 2 pi; the factor 2 pi cancels.
+    let each = (1.0 - nothing) / (count * variance);
+    let mut sum = nothing;
+    for p in &mut meant.points {
+        *p *= each;
+        // A direction that is not finite points at nothing.
+        *p = if *p > 0.0 { *p } else { 0.0 };
+        sum += *p;
+    }
+    for p in &mut meant.points {
+        *p /= sum;
+    }
+    meant.nothing = nothing / sum;
+    meant
+}
+
+/// Learns how well a person aims from misses of known targets.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Calibration {
+    squares: f32,
+    count: f32,
+}
+
+impl Calibration {
+    /// How many misses the assumption of [`Aim::DEFAULT`] outweighs.
+    const PRIOR: f32 = 3.0;
+
+    /// No target shown yet.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            squares: 0.0,
+            count: 0.0,
+        }
+    }
+
+    /// The ray missed the target by this angle, rad. Angles beyond 90 degrees mean that another
+    /// target was aimed at, and are left out.
+    pub fn missed_by(&mut self, angle: f32) {
+        if angle < core::f32::consts::FRAC_PI_2 && self.count < 1e4 {
+            self.squares += angle * angle;
+            self.count += 1.0;
+        }
+    }
+
+    /// The aim to reckon with. The squared miss of two directions is on average twice the variance.
+    #[must_use]
+    pub fn aim(&self) -> Aim {
+        let prior = Aim::DEFAULT;
+        let variance = (Self::PRIOR * prior.sigma * prior.sigma + self.squares / 2.0)
+            / (Self::PRIOR + self.count);
+        Aim {
+            sigma: math::sqrt(variance),
+            ..prior
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const FORWARD: Ray = Ray {
+        origin: [0.0; 3],
+        direction: [1.0, 0.0, 0.0],
+    };
+
+    fn at(degrees: f32) -> Vector {
+        let radians = f64::from(degrees).to_radians();
+        [radians.cos() as f32, radians.sin() as f32, 0.0]
+    }
+
+    fn among(points: &[Vector]) -> Meant<8> {
+        meant(&FORWARD, points.iter().copied(), &Aim::DEFAULT)
+    }
+
+    #[test]
+    fn the_aimed_at_thing_is_meant() {
+        let m = among(&[at(0.0), at(30.0), at(-40.0)]);
+        assert!(m.points[0] > 0.95, "{m:?}");
+    }
+
+    #[test]
+    fn two_things_side_by_side_share() {
+        let m = among(&[at(2.0), at(-2.2), at(60.0)]);
+        assert!((m.points[0] - m.points[1]).abs() < 0.06, "{m:?}");
+        assert!(m.points[0] < 0.55);
+    }
+
+    #[test]
+    fn what_lies_behind_or_far_beside_is_not_meant() {
+        let m = among(&[at(180.0), at(90.0), at(35.0)]);
+        assert!(m.nothing > 0.99, "{m:?}");
+    }
+
+    #[test]
+    fn calibration_finds_the_persons_sigma() {
+        let mut calibration = Calibration::new();
+        assert!((calibration.aim().sigma - Aim::DEFAULT.sigma).abs() < 1e-6);
+        // Misses of equally probable sizes for a sigma of 0.03 (Rayleigh quantiles).
+        for i in 0..200 {
+            let u = (f64::from(i) + 0.5) / 200.0;
+            calibration.missed_by((0.03 * (-2.0 * (1.0 - u).ln()).sqrt()) as f32);
+        }
+        calibration.missed_by(3.0);
+        calibration.missed_by(f32::NAN);
+        assert!(
+            (calibration.aim().sigma - 0.03).abs() < 0.003,
+            "{calibration:?}"
+        );
+    }
+
+    #[test]
+    fn the_ray_follows_the_index_finger_into_the_base_frame() {
+        let mut frame = HandFrame::default();
+        assert_eq!(ray(&frame, &Mount::DEFAULT), None);
+        frame.fingers[1] = Some(crate::gesture::frame::Finger {
+            knuckle: [0.0, 200.0, 0.0],
+            middle: [0.0, 200.0, -40.0],
+            tip: [0.0, 200.0, -80.0],
+        });
+        let ray = ray(&frame, &Mount::DEFAULT).unwrap();
+        assert_eq!(ray.direction, [-1.0, 0.0, 0.0]);
+        assert!(vector::distance(ray.origin, [-0.08, 0.0, 0.2]) < 1e-6);
+    }
+
+    proptest! {
+        #[test]
+        fn any_numbers_give_probabilities(
+            points in prop::collection::vec(prop::array::uniform3(any::<f32>()), 0..12),
+            origin in prop::array::uniform3(any::<f32>()),
+            direction in prop::array::uniform3(any::<f32>()),
+            sigma in any::<f32>(),
+            nothing in any::<f32>(),
+        ) {
+            let m: Meant<8> = meant(&Ray { origin, direction }, points.into_iter(), &Aim { sigma, nothing });
+            let sum: f32 = m.points.iter().sum::<f32>() + m.nothing;
+            prop_assert!((sum - 1.0).abs() < 1e-4, "{:?}", m);
+        }
+    }
+}
