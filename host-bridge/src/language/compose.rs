@@ -2,7 +2,7 @@
 //! finds what was spoken of, "before" and "after" put in order.
 
 use super::clause::{Clause, Link, Mood};
-use super::draft::Draft;
+use super::draft::{Draft, Slot};
 use super::drafter::drafts;
 use super::error::LanguageError;
 use super::read::{Piece, What};
@@ -63,6 +63,8 @@ struct Composer<'a> {
     correcting: bool,
     /// The action of a prohibition, for "but the box".
     forbidden: Option<Draft>,
+    /// The thing that was spoken of last, done or not.
+    mentioned: Option<Slot>,
     /// A clause that was announced by a leading "before".
     later: Vec<Planned>,
 }
@@ -83,6 +85,7 @@ pub fn compose(
         plan: Plan::default(),
         correcting: false,
         forbidden: None,
+        mentioned: None,
         later: Vec::new(),
     };
     for clause in clauses {
@@ -119,6 +122,9 @@ impl Composer<'_> {
             self.forbidden = drafts(&clause.pieces, true, self.table, self.lexicon)
                 .ok()
                 .and_then(|list| list.into_iter().next());
+            if let Some(draft) = self.forbidden.clone() {
+                self.mention(&draft);
+            }
         }
         self.plan.aside.push(SetAside { why, span });
         Ok(())
@@ -171,34 +177,30 @@ impl Composer<'_> {
             return Ok(());
         }
         let corrects = std::mem::take(&mut self.correcting) || clause.link == Link::Correct;
-        let list = list.into_iter().map(|draft| self.resolve(draft));
-        let planned: Vec<_> = list
-            .map(|draft| Planned {
-                draft,
-                span: span.clone(),
-                corrects,
-            })
-            .collect();
+        let list = list.into_iter().map(|draft| Planned {
+            draft: self.resolve(draft),
+            span: span.clone(),
+            corrects,
+        });
+        let planned = list.collect();
         self.place(planned, clause.link);
         Ok(())
     }
 
     /// Finds what "it" is.
-    fn resolve(&self, mut draft: Draft) -> Draft {
+    fn resolve(&mut self, mut draft: Draft) -> Draft {
         if std::mem::take(&mut draft.again) && draft.target.is_none() {
-            let before = self
-                .plan
-                .commands
-                .iter()
-                .rev()
-                .chain(self.later.iter().rev());
-            let known = before
-                .filter_map(|p| p.draft.target.clone())
-                .find(|t| !t.is_pointed());
             let wanted = draft.action.is_some();
+            let known = self.mentioned.clone();
             draft.target = known.or_else(|| wanted.then(Draft::shown));
         }
+        self.mention(&draft);
         draft
+    }
+
+    fn mention(&mut self, draft: &Draft) {
+        let named = draft.target.as_ref().filter(|t| !t.is_pointed());
+        self.mentioned = named.cloned().or_else(|| self.mentioned.take());
     }
 
     fn place(&mut self, mut planned: Vec<Planned>, link: Link) {
@@ -208,7 +210,10 @@ impl Composer<'_> {
             && planned.len() == 1
             && let Some(new) = planned.first()
         {
-            if let (true, Some(last)) = (link == Link::But && fragment, self.forbidden.take()) {
+            if let (true, Some(last)) = (
+                link == Link::But && fragment,
+                self.forbidden.take().filter(|d| d.action.is_some()),
+            ) {
                 let mut merged = last;
                 merged.amend(&new.draft);
                 let new = Planned {

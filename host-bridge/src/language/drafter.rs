@@ -135,6 +135,10 @@ impl Drafter<'_> {
 
     fn take(&mut self, piece: &Piece, rest: &[Piece]) -> Result<(), LanguageError> {
         match &piece.what {
+            // In "the cup, the box and the can" a comma means "and".
+            What::Comma if rest.iter().any(|p| p.is(Role::And)) => {
+                self.between = self.between_or(Between::And);
+            }
             What::Comma => self.between = self.between_or(Between::Comma),
             What::Quantity(kind, value) => self.quantity(piece, *kind, *value)?,
             What::Number(value) => self.number(piece, *value, rest)?,
@@ -258,10 +262,11 @@ impl Drafter<'_> {
             .kinds
             .iter()
             .position(|(name, _)| name == "amount");
+        let counted = |p: &Piece| p.is_thing() || value < 1.0 && p.is(Role::Again);
         let counts = rest
             .iter()
             .find(|p| !p.is(Role::Filler))
-            .is_some_and(Piece::is_thing);
+            .is_some_and(counted);
         match kind {
             Some(kind) if counts || self.has_signature(Category::AMOUNT) => {
                 self.quantity(piece, kind, value)

@@ -69,6 +69,14 @@ impl Splitter<'_> {
         self.verb().is_some() || self.pieces.iter().any(thing) && !ahead_is_verb(rest)
     }
 
+    /// Whether a thing alone was denied, so that the right one comes next: "not the cup, the box".
+    fn denies(&self) -> bool {
+        let verb = |p: &Piece| is_verb(p) || p.forms().next().is_some();
+        self.pieces.iter().any(|p| p.is(Role::Not))
+            && self.pieces.iter().any(Piece::is_thing)
+            && !self.pieces.iter().any(verb)
+    }
+
     fn verb(&self) -> Option<&Piece> {
         self.pieces.iter().find(|p| p.is_action() || p.is_head())
     }
@@ -144,6 +152,8 @@ pub(super) fn split(pieces: Vec<Piece>, table: &Table) -> Vec<Clause> {
         } else if piece.is(Role::Not) && s.begun(rest) {
             s.cut(Link::Comma);
             s.pieces.push(piece.clone());
+        } else if piece.what == What::Comma && s.denies() {
+            s.cut(Link::But);
         } else if separates {
             match ahead(rest) {
                 Some(p) if opens(p) && !s.completes(p) => s.cut(match () {
@@ -161,11 +171,9 @@ pub(super) fn split(pieces: Vec<Piece>, table: &Table) -> Vec<Clause> {
     s.done
 }
 
-/// Whether a verb comes before the next comma's end of what is said.
+/// Whether a verb comes before the next comma.
 fn ahead_is_verb(rest: &[Piece]) -> bool {
-    let known = |p: &&Piece| !is_empty(p) && !p.is(Role::Request);
     rest.iter()
         .take_while(|p| p.what != What::Comma)
-        .find(known)
-        .is_some_and(|p| is_verb(p) || p.forms().next().is_some())
+        .any(|p| is_verb(p) || p.forms().next().is_some())
 }

@@ -1,0 +1,117 @@
+//! Utterances over twelve phenomena, each labelled by hand: half for development, half kept for
+//! testing.
+
+use std::collections::BTreeMap;
+
+use deictic::language::{Command, LanguageError, Listener};
+use deictic::vocabulary::Lexicon;
+use deictic_core::category::Category;
+
+fn lexicon() -> Lexicon {
+    Lexicon::parse("workbench.toml", include_str!("data/workbench.toml")).unwrap()
+}
+
+/// A command in the notation of the files.
+fn written(command: &Command, lexicon: &Lexicon) -> String {
+    let mut parts = Vec::new();
+    let shown = |c: Category| command.pointed.contains(&c);
+    parts.push(match command.best(Category::ACTION) {
+        Some(action) => lexicon.option_name(Category::ACTION, action),
+        None => "~".to_owned(),
+    });
+    for (category, sign) in [(Category::OBJECT, "_"), (Category::STORAGE, "_s")] {
+        match command.best(category) {
+            Some(option) => parts.push(lexicon.option_name(category, option)),
+            None if shown(category) => parts.push(sign.to_owned()),
+            None => {}
+        }
+    }
+    let mut rest = Vec::new();
+    for list in lexicon.categories().iter().skip(3) {
+        let category = list.category;
+        match (command.quantity(category), command.best(category)) {
+            (Some(quantity), _) => {
+                let figure = format!("{quantity:.4}");
+                let figure = figure.trim_end_matches('0').trim_end_matches('.');
+                rest.push(format!("{}={figure}", list.name));
+            }
+            (None, Some(option)) => parts.push(lexicon.option_name(category, option)),
+            _ => {}
+        }
+    }
+    parts.extend(rest);
+    parts.join(" ")
+}
+
+fn answer(listener: &Listener<'_>, lexicon: &Lexicon, text: &str) -> String {
+    match listener.understand(text) {
+        Ok(utterance) if utterance.commands.is_empty() => "-".to_owned(),
+        Ok(utterance) => {
+            let commands = utterance.commands.iter().map(|c| written(c, lexicon));
+            commands.collect::<Vec<_>>().join(" ; ")
+        }
+        Err(LanguageError::UnknownWord { word, .. }) => format!("? {word}"),
+        Err(error) => format!("! {error}"),
+    }
+}
+
+/// Right and all utterances per phenomenon, and what went wrong.
+fn score(file: &str) -> (BTreeMap<String, (usize, usize)>, Vec<String>) {
+    let lexicon = lexicon();
+    let listener = Listener::new(&lexicon).unwrap();
+    let (mut counts, mut wrong) = (BTreeMap::new(), Vec::new());
+    for line in file
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.trim().is_empty())
+    {
+        let [phenomenon, text, label] = line.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("not three parts: {line}");
+        };
+        let got = answer(&listener, &lexicon, text);
+        let count = counts.entry(phenomenon.to_owned()).or_insert((0, 0));
+        count.1 += 1;
+        if got == label {
+            count.0 += 1;
+        } else {
+            wrong.push(format!(
+                "{phenomenon}: {text}\n    wanted {label}\n    got    {got}"
+            ));
+        }
+        let idle = matches!(phenomenon, "negation" | "questions");
+        let executed = label == "-" && !got.starts_with(['-', '?', '!', '~']);
+        assert!(
+            !(idle && executed),
+            "executed though it must not be: {text} -> {got}"
+        );
+    }
+    (counts, wrong)
+}
+
+fn check(name: &str, file: &str) {
+    let (counts, wrong) = score(file);
+    let (right, all) = counts.values().fold((0, 0), |s, c| (s.0 + c.0, s.1 + c.1));
+    let share = right as f64 / all as f64;
+    println!(
+        "{name}: {right} of {all} right ({:.1} %), {counts:?}",
+        share * 100.0
+    );
+    wrong.iter().for_each(|w| println!("{w}"));
+    assert!(all >= 150 && counts.len() == 12);
+    assert!(share >= 0.98, "{name}: {share}");
+}
+
+#[test]
+fn the_development_half_is_understood() {
+    check(
+        "development",
+        include_str!("data/utterances_development.txt"),
+    );
+}
+
+#[test]
+fn the_half_kept_for_testing_is_understood() {
+    check(
+        "kept for testing",
+        include_str!("data/utterances_held_back.txt"),
+    );
+}
