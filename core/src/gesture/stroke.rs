@@ -1,0 +1,250 @@
+//! Dynamic gestures: which movement a palm has made.
+//!
+//! A stroke is compared with templates by dynamic time warping in a band of three points, and by its
+//! length and duration; the distances become probabilities of gestures and of *none of these*.
+
+use super::path::{POINTS, Stroke};
+use super::vector::Vector;
+use crate::math;
+
+/// Points by which two strokes may run ahead of each other.
+const BAND: usize = 3;
+
+/// Steps of a template's numbers per unit; 127 steps reach 2.6, further than points of strokes get
+/// that are not needles.
+pub const STEPS: f32 = 48.0;
+
+/// One example of a gesture, 60 bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Template {
+    /// Which gesture it is an example of.
+    pub gesture: u8,
+    /// A stroke's points in steps of 1/48.
+    pub points: [[i8; 3]; POINTS],
+    /// Logarithm of its length, mm.
+    pub ln_length: f32,
+    /// Logarithm of its duration, s.
+    pub ln_seconds: f32,
+}
+
+impl Template {
+    /// The template that this stroke is.
+    #[must_use]
+    pub fn new(gesture: u8, stroke: &Stroke) -> Self {
+        Self {
+            gesture,
+            points: stroke.points.map(|p| p.map(|x| (x * STEPS) as i8)),
+            ln_length: stroke.ln_length,
+            ln_seconds: stroke.ln_seconds,
+        }
+    }
+}
+
+/// How distances become probabilities; found in training.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// A warped distance (squared, per point) that makes a gesture e times less probable.
+    pub shape: f32,
+    /// What a factor of e in length weighs against the shape.
+    pub length: f32,
+    /// What a factor of e in duration weighs against the shape.
+    pub seconds: f32,
+    /// The distance at which *none of these* is as probable as the gesture.
+    pub reach: f32,
+}
+
+/// The distance of a stroke from a template: squared, per point, warped, with the differences in
+/// length and duration. Gives up, with something at least as large, when it exceeds `worst`. About
+/// 3,000 instructions; far fewer when it gives up.
+#[must_use]
+pub fn distance(stroke: &Stroke, template: &Template, scale: &Scale, worst: f32) -> f32 {
+    let length = stroke.ln_length - template.ln_length;
+    let seconds = stroke.ln_seconds - template.ln_seconds;
+    let aside = scale.length * length * length + scale.seconds * seconds * seconds;
+    let limit = (worst - aside) * POINTS as f32;
+    aside + warp(&stroke.points, &template.points, limit) / POINTS as f32
+}
+
+/// One row of the table of dynamic time warping at a time. Entry `k` of a row stands for the
+/// template's point `row + k - BAND`.
+fn warp(stroke: &[Vector; POINTS], template: &[[i8; 3]; POINTS], limit: f32) -> f32 {
+    const WIDTH: usize = 2 * BAND + 1;
+    // One entry more on the right, which is never reached.
+    let mut row = [f32::INFINITY; WIDTH + 1];
+    if let Some(start) = row.get_mut(BAND) {
+        *start = 0.0;
+    }
+    for (i, [x, y, z]) in stroke.iter().enumerate() {
+        let mut left = f32::INFINITY;
+        let mut least = f32::INFINITY;
+        for k in 0..WIDTH {
+            let Some([diagonal, above]) = row.get(k..).and_then(<[f32]>::first_chunk) else {
+                break;
+            };
+            // Before the first row only the corner counts, and it is reached straight.
+            let before = diagonal.min(*above).min(left);
+            let j = i.saturating_add(k).checked_sub(BAND);
+            let cell = match j.and_then(|j| template.get(j)) {
+                Some([a, b, c]) => {
+                    let [dx, dy, dz] = [
+                        x - f32::from(*a) / STEPS,
+                        y - f32::from(*b) / STEPS,
+                        z - f32::from(*c) / STEPS,
+                    ];
+                    before + dx * dx + dy * dy + dz * dz
+                }
+                None => f32::INFINITY,
+            };
+            if let Some(place) = row.get_mut(k) {
+                *place = cell;
+            }
+            left = cell;
+            least = least.min(cell);
+        }
+        if least > limit {
+            return least;
+        }
+    }
+    row.get(BAND).copied().unwrap_or(f32::INFINITY)
+}
+
+/// Compares one stroke with templates, a few at a time, so that no frame takes long.
+#[derive(Clone, Debug)]
+pub struct Comparison<const G: usize> {
+    stroke: Stroke,
+    least: [f32; G],
+    next: usize,
+}
+
+/// Probabilities of the gestures that a stroke may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Likely<const G: usize> {
+    /// One per gesture.
+    pub gestures: [f32; G],
+    /// None of them.
+    pub none: f32,
+}
+
+impl<const G: usize> Comparison<G> {
+    /// Nothing compared yet.
+    #[must_use]
+    pub const fn new(stroke: Stroke) -> Self {
+        Self {
+            stroke,
+            least: [f32::INFINITY; G],
+            next: 0,
+        }
+    }
+
+    /// Compares with the next `count` templates. Gives the probabilities when all are done;
+    /// templates of gestures beyond `G` are left out.
+    pub fn step(
+        &mut self,
+        templates: &[Template],
+        scale: &Scale,
+        count: usize,
+    ) -> Option<Likely<G>> {
+        for template in templates.iter().skip(self.next).take(count) {
+            if let Some(least) = self.least.get_mut(usize::from(template.gesture)) {
+                *least = least.min(distance(&self.stroke, template, scale, *least));
+            }
+        }
+        self.next = self.next.saturating_add(count);
+        (self.next >= templates.len()).then(|| self.likely(scale))
+    }
+
+    fn likely(&self, scale: &Scale) -> Likely<G> {
+        let best = self.least.iter().copied().fold(scale.reach, f32::min);
+        let power = |distance: f32| math::exp((best - distance) / scale.shape);
+        let none = power(scale.reach);
+        let gestures = self.least.map(power);
+        let sum: f32 = gestures.iter().sum::<f32>() + none;
+        Likely {
+            gestures: gestures.map(|p| p / sum),
+            none: none / sum,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SCALE: Scale = Scale {
+        shape: 0.03,
+        length: 0.02,
+        seconds: 0.01,
+        reach: 0.3,
+    };
+
+    fn stroke(to: impl Fn(f64) -> [f64; 3]) -> Stroke {
+        let way = (0..50).map(|i| to(f64::from(i) / 49.0).map(|x| x as f32));
+        Stroke::new(way, 0.6).unwrap()
+    }
+
+    fn arc(bend: f64) -> Stroke {
+        stroke(|t| [300.0 * t, bend * (t * 3.1).sin(), 0.0])
+    }
+
+    /// The whole table, without band or giving up.
+    fn plain(stroke: &Stroke, template: &Template, band: usize) -> f32 {
+        let mut table = [[f32::INFINITY; POINTS + 1]; POINTS + 1];
+        table[0][0] = 0.0;
+        for i in 0..POINTS {
+            for j in 0..POINTS {
+                if i.abs_diff(j) > band {
+                    continue;
+                }
+                let off: f32 = (0..3)
+                    .map(|c| stroke.points[i][c] - f32::from(template.points[j][c]) / STEPS)
+                    .map(|d| d * d)
+                    .sum();
+                table[i + 1][j + 1] = off + table[i][j].min(table[i + 1][j]).min(table[i][j + 1]);
+            }
+        }
+        table[POINTS][POINTS]
+    }
+
+    #[test]
+    fn a_stroke_is_what_it_resembles_and_its_opposite_is_not() {
+        let templates = [
+            Template::new(0, &arc(10.0)),
+            Template::new(1, &stroke(|t| [-300.0 * t, 0.0, 0.0])),
+            Template::new(2, &stroke(|t| [0.0, 300.0 * t, 0.0])),
+        ];
+        let mut comparison = Comparison::<3>::new(arc(-20.0));
+        assert_eq!(comparison.step(&templates, &SCALE, 2), None);
+        let likely = comparison.step(&templates, &SCALE, 2).unwrap();
+        assert!(likely.gestures[0] > 0.95, "{likely:?}");
+    }
+
+    #[test]
+    fn what_resembles_nothing_is_none() {
+        let templates = [Template::new(0, &arc(0.0))];
+        let mut comparison = Comparison::<1>::new(stroke(|t| {
+            let angle = t * 6.0;
+            [100.0 * angle.cos(), 100.0 * angle.sin(), 0.0]
+        }));
+        let likely = comparison.step(&templates, &SCALE, 9).unwrap();
+        assert!(likely.none > 0.9, "{likely:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn the_banded_row_agrees_with_the_whole_table(
+            a in prop::collection::vec(prop::array::uniform3(-100.0_f32..100.0), 3..40),
+            b in prop::collection::vec(prop::array::uniform3(-100.0_f32..100.0), 3..40),
+        ) {
+            let (Some(a), Some(b)) = (Stroke::new(a.into_iter(), 1.0), Stroke::new(b.into_iter(), 1.0))
+            else { return Ok(()) };
+            let template = Template::new(0, &b);
+            let expected = plain(&a, &template, BAND);
+            let got = warp(&a.points, &template.points, f32::INFINITY);
+            prop_assert!((got - expected).abs() <= 1e-4 * expected, "{} {}", got, expected);
+            // Giving up never makes a stroke nearer than it is allowed to be.
+            let limited = warp(&a.points, &template.points, expected / 2.0);
+            prop_assert!(limited > expected / 2.0);
+        }
+    }
+}
