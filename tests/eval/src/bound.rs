@@ -57,7 +57,9 @@ impl Bound {
         100.0 * count / self.n.max(1) as f64
     }
 
-    fn plus(self, other: Self) -> Self {
+    /// The counts of both.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
         Self {
             n: self.n + other.n,
             triple: self.triple + other.triple,

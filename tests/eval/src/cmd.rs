@@ -2,6 +2,7 @@
 
 mod bound;
 mod generate;
+mod paper;
 mod parity;
 mod score;
 mod sentences;
@@ -14,6 +15,7 @@ use clap::Subcommand;
 pub enum Command {
     Bound(bound::Bound),
     Generate(generate::Generate),
+    Paper(paper::Paper),
     Parity(parity::Parity),
     Score(score::Score),
     Sentences(sentences::Sentences),
@@ -26,6 +28,7 @@ impl Command {
         match self {
             Self::Bound(command) => command.run(),
             Self::Generate(command) => command.run(),
+            Self::Paper(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Score(command) => command.run(),
             Self::Sentences(command) => command.run(),

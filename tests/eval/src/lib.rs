@@ -17,6 +17,7 @@ pub mod generate;
 pub mod interval;
 pub mod noise;
 pub mod order;
+pub mod paper;
 pub mod parity;
 pub mod peer;
 pub mod phonetic;

@@ -194,14 +194,16 @@ impl Setups {
     }
 }
 
-/// The paper's actions and features with the things of these scenes. What kind a thing is of is a
+/// The paper's actions and features with the things of these scenes; in language all names are as
+/// alike as they sound. What kind a thing is of is a
 /// feature like others here, as a bowl is both a container and a liquid container.
 fn catalogue(raw: &[Setup]) -> Catalogue {
     let (mut catalogue, _) = Catalogue::papers();
+    phonetic::correct(&mut catalogue);
     catalogue.features.append(&mut catalogue.types);
-    for c in 1..CATEGORIES {
+    for (c, category) in CATEGORY_NAMES.iter().enumerate().skip(1) {
         let entries = raw.iter().flat_map(|setup| &setup.scene);
-        let names = entries.filter(|entry| entry.kind == CATEGORY_NAMES[c]);
+        let names = entries.filter(|entry| entry.kind == *category);
         let mut names: Vec<String> = names.map(|entry| entry.name.clone()).collect();
         names.sort();
         names.dedup();
