@@ -36,12 +36,12 @@ pub struct Catalogue {
 #[derive(Debug, Error)]
 pub enum CatalogueError {
     /// The file cannot be read.
-    #[error("{file}: {source}")]
+    #[error("{file}: {cause}")]
     Read {
         /// Its path.
         file: String,
         /// The system's reason.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The file is not in the format that its name says.
     #[error("{file}: {reason}")]

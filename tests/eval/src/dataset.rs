@@ -33,12 +33,12 @@ pub enum DatasetError {
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
     /// The folder or file cannot be opened.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {cause}", file.display())]
     Open {
         /// Its path.
         file: PathBuf,
         /// The system's reason.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The folder has no sets.
     #[error("{}: no files ending in .jsonl or .jsonl.gz", folder.display())]
@@ -47,14 +47,14 @@ pub enum DatasetError {
         folder: PathBuf,
     },
     /// The file ends or breaks in the middle of a line.
-    #[error("{}, line {line}: cannot be read further: {source}", file.display())]
+    #[error("{}, line {line}: cannot be read further: {cause}", file.display())]
     Truncated {
         /// Its path.
         file: PathBuf,
         /// The line that could not be read, from 1.
         line: usize,
         /// The system's reason.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// A line says something that cannot be.
     #[error("{}, line {line}: {fault}", file.display())]
@@ -86,9 +86,9 @@ pub fn read_folder(folder: &Path) -> Result<(Catalogue, Vec<Set>), DatasetError>
 /// # Errors
 /// [`DatasetError::Open`] and [`DatasetError::NoSets`].
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
-    let open = |source| DatasetError::Open {
+    let open = |cause| DatasetError::Open {
         file: folder.to_owned(),
-        source,
+        cause,
     };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(open)? {
@@ -112,9 +112,9 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>, DatasetError> {
 /// # Errors
 /// [`DatasetError`] with file, line and reason.
 pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Set, DatasetError> {
-    let file = File::open(path).map_err(|source| DatasetError::Open {
+    let file = File::open(path).map_err(|cause| DatasetError::Open {
         file: path.to_owned(),
-        source,
+        cause,
     })?;
     let packed = path.extension().is_some_and(|e| e == "gz");
     let stream: Box<dyn Read> = if packed {
@@ -124,10 +124,10 @@ pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Set, DatasetError> {
     };
     let mut records = Vec::new();
     for (i, text) in BufReader::new(stream).lines().enumerate() {
-        let text = text.map_err(|source| DatasetError::Truncated {
+        let text = text.map_err(|cause| DatasetError::Truncated {
             file: path.to_owned(),
             line: i + 1,
-            source,
+            cause,
         })?;
         let record = line::parse(&text, catalogue).map_err(|fault| DatasetError::Line {
             file: path.to_owned(),

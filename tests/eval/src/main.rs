@@ -2,6 +2,8 @@
 
 mod cmd;
 
+use std::process::ExitCode;
+
 use clap::Parser;
 
 /// The paper's experiments with Deictic's core.
@@ -12,6 +14,12 @@ struct Args {
     command: cmd::Command,
 }
 
-fn main() -> anyhow::Result<()> {
-    Args::parse().command.run()
+fn main() -> ExitCode {
+    match Args::parse().command.run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
 }

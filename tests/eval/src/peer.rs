@@ -27,12 +27,12 @@ pub struct Report {
 #[derive(Debug, Error)]
 pub enum PeerError {
     /// Python cannot be started.
-    #[error("`{python}` cannot be started: {source}")]
+    #[error("`{python}` cannot be started: {cause}")]
     Start {
         /// The command.
         python: String,
         /// The system's reason.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// It failed; most often numpy is missing.
     #[error("`{python}` gave no answers (does it have numpy?): {stderr}")]
@@ -55,9 +55,9 @@ pub fn run(python: &str, sets: &Path, repeats: usize) -> Result<Report, PeerErro
         .arg(sets)
         .arg(repeats.to_string())
         .output()
-        .map_err(|source| PeerError::Start {
+        .map_err(|cause| PeerError::Start {
             python: python.to_owned(),
-            source,
+            cause,
         })?;
     let failed = |stderr: String| PeerError::Failed {
         python: python.to_owned(),

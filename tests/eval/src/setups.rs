@@ -66,9 +66,9 @@ impl Setups {
     /// [`CatalogueError`] naming the file and what is wrong in it.
     pub fn read(path: &Path) -> Result<Self, CatalogueError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|source| CatalogueError::Read {
+        let text = std::fs::read_to_string(path).map_err(|cause| CatalogueError::Read {
             file: file.clone(),
-            source,
+            cause,
         })?;
         let raw: Vec<Setup> = serde_json::from_str(&text).map_err(|e| CatalogueError::Format {
             file: file.clone(),

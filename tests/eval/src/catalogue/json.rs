@@ -36,9 +36,9 @@ struct Needs {
 
 pub(super) fn read(path: &Path) -> Result<Catalogue, CatalogueError> {
     let file = path.display().to_string();
-    let text = fs::read_to_string(path).map_err(|source| CatalogueError::Read {
+    let text = fs::read_to_string(path).map_err(|cause| CatalogueError::Read {
         file: file.clone(),
-        source,
+        cause,
     })?;
     let raw: File = serde_json::from_str(&text).map_err(|error| CatalogueError::Format {
         file: file.clone(),

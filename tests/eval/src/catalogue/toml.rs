@@ -81,9 +81,9 @@ impl Table {
 
 pub(super) fn read(path: &Path) -> Result<(Catalogue, Recipe), CatalogueError> {
     let file = path.display().to_string();
-    let text = fs::read_to_string(path).map_err(|source| CatalogueError::Read {
+    let text = fs::read_to_string(path).map_err(|cause| CatalogueError::Read {
         file: file.clone(),
-        source,
+        cause,
     })?;
     parse(&text, &file)
 }
