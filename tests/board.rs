@@ -2,13 +2,13 @@
 //! and survives what links and hosts do to it.
 
 use deictic_bits::Bench;
-use deictic_core::board::{Message, Sentence};
+use deictic_core::board::{Sentence, ToHost, ToUnit};
 use deictic_core::category::Category;
 use deictic_core::profile::Profile;
 use deictic_core::protocol::message::{Configuration, Fault, Statistics};
 use deictic_core::time::Micros;
 use deictic_tests::emulated::{Emulated, image};
-use deictic_tests::host::{Host, Inside, Wire};
+use deictic_tests::host::{Host, Inside, Wire, sentence_parts};
 
 fn configuration(profile: Profile) -> Configuration {
     let window = Micros::from_millis(60_000);
@@ -21,9 +21,9 @@ fn configuration(profile: Profile) -> Configuration {
 }
 
 /// Everything that a unit says about a command: the decision and why.
-fn decide<W: Wire>(host: &mut Host<W>, bench: &Bench) -> Vec<Message> {
+fn decide<W: Wire>(host: &mut Host<W>, bench: &Bench) -> Vec<ToHost> {
     for sentence in bench.observations().iter() {
-        host.say(&Message::Sentence(sentence.clone()));
+        host.tell(sentence);
     }
     let spoken = |c: &Category| {
         let words = || bench.observations().iter().flat_map(|s| s.words());
@@ -35,7 +35,7 @@ fn decide<W: Wire>(host: &mut Host<W>, bench: &Bench) -> Vec<Message> {
     (0..expected)
         .map(|_| {
             host.wait_for(|m| match m {
-                Message::Heartbeat(_) => None,
+                ToHost::Heartbeat(_) => None,
                 other => Some(other.clone()),
             })
         })
@@ -43,14 +43,14 @@ fn decide<W: Wire>(host: &mut Host<W>, bench: &Bench) -> Vec<Message> {
 }
 
 fn statistics<W: Wire>(host: &mut Host<W>) -> Statistics {
-    host.say(&Message::AskStatistics);
+    host.say(&ToUnit::AskStatistics);
     host.wait_for(|m| match m {
-        Message::Statistics(statistics) => Some(*statistics),
+        ToHost::Statistics(statistics) => Some(*statistics),
         _ => None,
     })
 }
 
-fn conversation<W: Wire>(wire: W, samples: std::ops::Range<u32>) -> Vec<Vec<Message>> {
+fn conversation<W: Wire>(wire: W, samples: std::ops::Range<u32>) -> Vec<Vec<ToHost>> {
     let mut host = Host::new(wire);
     let mut bench = Bench::new();
     host.hello();
@@ -99,7 +99,8 @@ fn damage_on_the_line_is_counted_and_nothing_is_decided_from_it() {
     host.configure(configuration(Profile::PAPER));
     let mut sentences = bench.observations().iter();
     let first = sentences.next().expect("two sentences").clone();
-    let good = host.frame(&Message::Sentence(first));
+    let first = sentence_parts(&first);
+    let good = host.frame(&first[0]);
     for at in (0..good.len() - 1).step_by(7) {
         let mut bad = good.clone();
         bad[at] ^= 0x20;
@@ -117,7 +118,7 @@ fn damage_on_the_line_is_counted_and_nothing_is_decided_from_it() {
     host.wire.write(&good);
     assert_eq!(statistics(&mut host).link.reordered, 1);
     let decided = decide(&mut host, &bench);
-    let Some(Message::Decision(decided)) = decided.first() else {
+    let Some(ToHost::Decision(decided)) = decided.first() else {
         panic!("{decided:?}")
     };
     assert!(decided.decision.best.is_some() && decided.modalities == 0b11);
@@ -138,13 +139,13 @@ fn a_board_that_comes_back_knows_nothing_and_says_so() {
         .next()
         .expect("two sentences")
         .clone();
-    host.say(&Message::Sentence(first.clone()));
+    host.tell(&first);
 
     // The plug is pulled in the middle of a command.
     host.wire = Emulated::boot(&image);
-    host.say(&Message::Sentence(first));
+    host.tell(&first);
     let fault = host.wait_for(|m| match m {
-        Message::Fault(fault) => Some(*fault),
+        ToHost::Fault(fault) => Some(*fault),
         _ => None,
     });
     assert_eq!(fault, Fault::NoHello);

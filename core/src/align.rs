@@ -5,94 +5,118 @@
 //! their place, which gives the same pairs for synchronised sentences and right ones for others.
 
 use crate::category::Category;
-use crate::sentence::{Observations, Sentence, Word};
+use crate::math::larger;
+use crate::sentence::{MODALITIES, Observations, Word};
 
-/// The word of `sentence` that speaks of `category`: the one most likely to belong to it, the later
-/// among equals, as people correct themselves forwards. Absent words do not count.
-#[must_use]
-pub fn word_of<const W: usize, const C: usize, const N: usize>(
-    sentence: &Sentence<W, C, N>,
-    category: Category,
-) -> Option<&Word<C, N>> {
-    let mut best = None;
-    let mut top = 0.0;
-    for word in sentence.words() {
-        let p = probability(word, category);
-        if p >= top && word.category() == Some(category) && word.is_present() {
-            top = p;
-            best = Some(word);
+/// The words that speak of one category, by modality.
+pub type Slot<'a, const C: usize, const N: usize> = [Option<&'a Word<C, N>>; MODALITIES];
+
+/// The words of all sentences by category and modality.
+pub struct Alignment<'a, const C: usize, const N: usize> {
+    slots: [Slot<'a, C, N>; C],
+    present: [f32; C],
+}
+
+impl<'a, const C: usize, const N: usize> Alignment<'a, C, N> {
+    /// Aligns what was observed. Of several words of one modality that speak of a category it is the
+    /// one most likely to belong to it, the later among equals, as people correct themselves
+    /// forwards. Absent words do not count.
+    #[must_use]
+    pub fn of<const W: usize>(observations: &'a Observations<W, C, N>) -> Self {
+        let mut aligned = Self {
+            slots: [[None; MODALITIES]; C],
+            present: [0.0; C],
+        };
+        for sentence in observations.iter() {
+            let modality = usize::from(sentence.modality());
+            let mut tops = [0.0; C];
+            for word in sentence.words().iter().filter(|word| word.is_present()) {
+                for (present, &p) in aligned.present.iter_mut().zip(word.categories()) {
+                    *present = larger(*present, p);
+                }
+                let Some((q, p)) = word.likeliest() else {
+                    continue;
+                };
+                let (Some(slot), Some(top)) = (aligned.slots.get_mut(q), tops.get_mut(q)) else {
+                    continue;
+                };
+                if p >= *top
+                    && let Some(place) = slot.get_mut(modality)
+                {
+                    *top = p;
+                    *place = Some(word);
+                }
+            }
         }
+        aligned
     }
-    best
-}
 
-/// p(`category` is in the merged sentence): the largest p(C(w) = C^q) over all present words. Words
-/// of different modalities are about the same thing, so their probabilities do not add up.
-#[must_use]
-pub fn presence<const W: usize, const C: usize, const N: usize>(
-    observations: &Observations<W, C, N>,
-    category: Category,
-) -> f32 {
-    observations
-        .iter()
-        .flat_map(Sentence::words)
-        .filter(|word| word.is_present())
-        .fold(0.0, |p, word| f32::max(p, probability(word, category)))
-}
+    /// The words that speak of this category, by modality.
+    #[must_use]
+    pub fn slot(&self, category: Category) -> Slot<'a, C, N> {
+        self.slots
+            .get(category.index())
+            .copied()
+            .unwrap_or_default()
+    }
 
-fn probability<const C: usize, const N: usize>(word: &Word<C, N>, category: Category) -> f32 {
-    word.categories()
-        .get(category.index())
-        .copied()
-        .unwrap_or(0.0)
+    /// p(`category` is in the merged sentence): the largest p(C(w) = C^q) over all present words.
+    /// Words of different modalities are about the same thing, so their probabilities do not add up.
+    #[must_use]
+    pub fn presence(&self, category: Category) -> f32 {
+        self.present.get(category.index()).copied().unwrap_or(0.0)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sentence::Sentence;
+    use crate::vocabulary::{Action, Vocabulary};
 
     type W = Word<4, 2>;
 
-    fn sentence(modality: u8, words: &[W]) -> Sentence<4, 4, 2> {
-        let mut s = Sentence::new(modality);
-        for w in words {
-            s.push(w.clone()).unwrap();
+    fn observed(sentences: &[&[W]]) -> Observations<4, 4, 2> {
+        let v: Vocabulary<2, 4, 1> =
+            Vocabulary::new(&[Action::default(); 2], &[2, 2], 0, None, 0).unwrap();
+        let mut o = Observations::new();
+        for (m, words) in sentences.iter().enumerate() {
+            let mut s = Sentence::new(m as u8);
+            for w in *words {
+                s.push(w.clone()).unwrap();
+            }
+            o.insert(s, &v).unwrap();
         }
-        s
+        o
     }
 
     #[test]
     fn the_most_probable_word_speaks_the_later_among_equals() {
         let unsure = W::new(&[0.1, 0.6, 0.3], &[1.0, 0.0]).unwrap();
         let sure = W::certain(Category::OBJECT, &[0.0, 1.0]).unwrap();
-        let s = sentence(0, &[sure.clone(), unsure.clone()]);
-        assert_eq!(word_of(&s, Category::OBJECT), Some(&sure));
         let corrected = W::certain(Category::OBJECT, &[0.5, 0.5]).unwrap();
-        let s = sentence(0, &[sure, corrected.clone(), unsure, W::ABSENT]);
-        assert_eq!(word_of(&s, Category::OBJECT), Some(&corrected));
-        assert_eq!(word_of(&s, Category::STORAGE), None);
+        let o = observed(&[
+            &[sure.clone(), unsure.clone()],
+            &[sure.clone(), corrected.clone(), unsure, W::ABSENT],
+        ]);
+        let aligned = Alignment::of(&o);
+        assert_eq!(
+            aligned.slot(Category::OBJECT),
+            [Some(&sure), Some(&corrected), None, None]
+        );
+        assert_eq!(aligned.slot(Category::STORAGE), [None; MODALITIES]);
     }
 
     #[test]
     fn presence_is_the_largest_probability_of_a_present_word() {
-        let mut o = Observations::new();
-        o.insert(sentence(
-            0,
+        let o = observed(&[
             &[W::new(&[0.0, 0.7, 0.3], &[1.0, 0.0]).unwrap()],
-        ))
-        .unwrap();
-        o.insert(sentence(
-            1,
             &[W::new(&[0.0, 0.6, 0.4], &[0.0, 1.0]).unwrap()],
-        ))
-        .unwrap();
-        o.insert(sentence(
-            2,
             &[W::certain(Category::ACTION, &[0.0, 1e-4]).unwrap()],
-        ))
-        .unwrap();
-        assert_eq!(presence(&o, Category::OBJECT), 0.7);
-        assert_eq!(presence(&o, Category::STORAGE), 0.4);
-        assert_eq!(presence(&o, Category::ACTION), 0.0);
+        ]);
+        let aligned = Alignment::of(&o);
+        assert_eq!(aligned.presence(Category::OBJECT), 0.7);
+        assert_eq!(aligned.presence(Category::STORAGE), 0.4);
+        assert_eq!(aligned.presence(Category::ACTION), 0.0);
     }
 }

@@ -36,8 +36,10 @@ macro_rules! capacities {
             pub type Decision = crate::decide::Decision<$c>;
             /// [`crate::trace::Trace`] of these capacities.
             pub type Trace = crate::trace::Trace<$c, $n>;
-            /// [`crate::protocol::message::Message`] of these capacities.
-            pub type Message = crate::protocol::message::Message<$n, $c, $f, $w>;
+            /// [`crate::protocol::message::ToUnit`] of these capacities.
+            pub type ToUnit = crate::protocol::message::ToUnit<$n, $c, $f>;
+            /// [`crate::protocol::message::ToHost`] of these capacities.
+            pub type ToHost = crate::protocol::message::ToHost<$n, $c>;
             /// [`crate::protocol::link::Link`] of these capacities.
             pub type Link = crate::protocol::link::Link<$frame>;
             /// [`crate::unit::Unit`] of these capacities.
@@ -48,10 +50,10 @@ macro_rules! capacities {
 
 capacities! {
     /// What a gesture unit with 16 KiB of RAM to spare holds: the paper's vocabulary twice over.
-    board: options 16, categories 8, features 16, entities 16, words 6, frame 768, outbox 2048
+    board: options 16, categories 8, features 16, entities 16, words 6, frame 256, outbox 1536
 }
 
 capacities! {
     /// What a host or a large board holds.
-    large: options 64, categories 16, features 32, entities 128, words 8, frame 4096, outbox 16384
+    large: options 64, categories 16, features 32, entities 128, words 8, frame 1024, outbox 16384
 }

@@ -2,7 +2,7 @@
 //! and 10; METHOD, section 3).
 
 use crate::category::Category;
-use crate::math;
+use crate::math::{self, larger};
 use crate::vocabulary::{Requirement, Signature};
 
 /// How far the categories that were expressed are from an action's signature: L of eq. 7.
@@ -37,12 +37,12 @@ pub fn alpha(mismatch: f32, ln_penalty: f32) -> f32 {
 /// largest misalignment |f - wanted| (eq. 8 and 9). A feature that is not given counts as 0.
 #[must_use]
 pub fn alignment(requirement: Requirement, features: &[f32]) -> f32 {
-    let mut worst: f32 = 0.0;
+    let mut worst = 0.0;
     for k in requirement.wanted.iter() {
-        worst = worst.max(1.0 - features.get(k).copied().unwrap_or(0.0));
+        worst = larger(worst, 1.0 - features.get(k).copied().unwrap_or(0.0));
     }
     for k in requirement.unwanted.iter() {
-        worst = worst.max(features.get(k).copied().unwrap_or(0.0));
+        worst = larger(worst, features.get(k).copied().unwrap_or(0.0));
     }
     1.0 - worst
 }

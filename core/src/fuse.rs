@@ -4,36 +4,20 @@
 //! On a Cortex-M4F one M3 decision over the paper's vocabulary stays below 12,000 instructions; the
 //! golden figures are in `tests/expected/`.
 
-use serde::{Deserialize, Serialize};
-
-use crate::align;
+use crate::align::{Alignment, Slot};
 use crate::category::Category;
 use crate::decide::{Decision, decide};
 use crate::entropy;
 use crate::feasibility::{alignment, alpha, signature_mismatch};
 use crate::judgement::{Judgement, judge};
-use crate::math;
-use crate::merge::{Mix, mix_in, penalise};
+use crate::math::{self, larger};
+use crate::merge::{Mix, penalise};
 use crate::profile::{BetaScope, Missing, Model, Presence, Profile, ProfileError, Threshold};
 use crate::reference;
 use crate::scene::Scene;
-use crate::sentence::{GESTURE, LANGUAGE, Observations, SentenceError, Word};
+use crate::sentence::{GESTURE, LANGUAGE, Observations, Word};
 use crate::trace::{CategoryTrace, Trace};
 use crate::vocabulary::{Action, Vocabulary};
-
-/// Why nothing could be decided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum FuseError {
-    /// A sentence does not fit the vocabulary.
-    Sentence {
-        /// Which modality's.
-        modality: u8,
-        /// What is wrong with it.
-        error: SentenceError,
-    },
-    /// The profile cannot be.
-    Profile(ProfileError),
-}
 
 /// All that one decision looks at, besides the profile.
 #[derive(Clone, Copy)]
@@ -56,56 +40,53 @@ pub struct Situation<
 /// Decides with the profile's own mixing operator; see [`fuse_with`].
 ///
 /// # Errors
-/// [`FuseError`] when a sentence or the profile is not sound; the trace is then empty.
+/// [`ProfileError`] when the profile is not sound; the trace is then empty.
 pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
     profile: &Profile,
     trace: &mut Trace<C, N>,
-) -> Result<Decision<C>, FuseError> {
+) -> Result<Decision<C>, ProfileError> {
     fuse_with(situation, profile, &profile.merge, trace)
 }
 
 /// Decides with any mixing operator, and leaves in `trace` why.
 ///
 /// # Errors
-/// [`FuseError`] when a sentence or the profile is not sound; the trace is then empty.
+/// [`ProfileError`] when the profile is not sound; the trace is then empty.
 pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
     profile: &Profile,
     mix: &impl Mix,
     trace: &mut Trace<C, N>,
-) -> Result<Decision<C>, FuseError> {
+) -> Result<Decision<C>, ProfileError> {
     trace.clear();
-    profile.check().map_err(FuseError::Profile)?;
+    profile.check()?;
     let Situation {
         vocabulary,
         scene,
         observations,
     } = situation;
-    for sentence in observations.iter() {
-        sentence
-            .check(vocabulary)
-            .map_err(|error| FuseError::Sentence {
-                modality: sentence.modality(),
-                error,
-            })?;
-    }
+    let aligned = Alignment::of(observations);
     for (q, &options) in vocabulary.options().iter().enumerate() {
         let (Some(category), Some(word)) =
             (Category::from_index(q), trace.categories_mut().get_mut(q))
         else {
             break;
         };
+        let slot = aligned.slot(category);
         word.options = options;
-        let spoken = merge_category(situation, category, profile, mix, word);
         word.present = match profile.presence {
-            Presence::Probability => align::presence(observations, category),
-            Presence::Sum(least) => f32::from(u8::from(visible(observations, category, least))),
+            Presence::Probability => aligned.presence(category),
+            Presence::Sum(least) => f32::from(u8::from(visible(&slot, least))),
         };
-        if spoken && profile.threshold.is_relative() {
+        if slot.iter().all(Option::is_none) {
+            continue;
+        }
+        merge(situation, category, &slot, profile, mix, word);
+        if profile.threshold.is_relative() {
             entropy::normalise(word.merged_and_h().0);
         }
-        if spoken && category != Category::ACTION {
+        if category != Category::ACTION {
             settle(category, profile, word);
         }
     }
@@ -113,82 +94,68 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
     Ok(decide(vocabulary, scene, profile, trace))
 }
 
-/// Mixes all modalities' words of one category into `word.merged`; whether there was any.
-fn merge_category<
-    const N: usize,
-    const C: usize,
-    const F: usize,
-    const E: usize,
-    const W: usize,
->(
+/// Mixes the words of one category, of which there is at least one, into `word.merged`.
+fn merge<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
     category: Category,
+    slot: &Slot<'_, C, N>,
     profile: &Profile,
     mix: &impl Mix,
     word: &mut CategoryTrace<N>,
-) -> bool {
-    let observations = situation.observations;
+) {
     let mut buffer = [0.0; N];
-    let mut spoken = false;
-    let mut mixed = false;
-    for sentence in observations.iter() {
+    let mut first = true;
+    for sentence in situation.observations.iter() {
         let modality = sentence.modality();
+        let said = slot.get(usize::from(modality)).copied().flatten();
+        if said.is_none() && profile.missing == Missing::Skip {
+            continue;
+        }
         let (merged, h) = word.merged_and_h();
-        let Some(said) = align::word_of(sentence, category) else {
-            if profile.missing == Missing::Zero {
-                let zeros = buffer.get_mut(..merged.len()).unwrap_or_default();
-                zeros.fill(0.0);
-                mix_in(merged, zeros, 1.0, !mixed, mix);
-                mixed = true;
-            }
-            continue;
-        };
         let Some((scratch, _)) = buffer.split_at_mut_checked(merged.len()) else {
-            continue;
+            return;
         };
-        for (to, from) in scratch.iter_mut().zip(said.likelihoods()) {
-            *to = *from;
+        match said {
+            None => scratch.fill(0.0),
+            Some(said) => {
+                for (to, from) in scratch.iter_mut().zip(said.likelihoods()) {
+                    *to = *from;
+                }
+                if profile.reference_quirks {
+                    soften_one_hot(situation.scene, slot, category, modality, scratch);
+                }
+                if profile.penalised {
+                    penalise(scratch, h, profile.least_h);
+                }
+            }
         }
-        if profile.reference_quirks {
-            soften_one_hot(situation, category, modality, scratch);
+        let weight = profile.weight(modality);
+        if first {
+            for (m, w) in merged.iter_mut().zip(scratch) {
+                *m = weight * *w;
+            }
+            first = false;
+        } else {
+            mix.mix_in(merged, scratch, weight);
         }
-        if profile.penalised {
-            penalise(scratch, h, profile.least_h);
-        }
-        mix_in(merged, scratch, profile.weight(modality), !mixed, mix);
-        word.quantity = said.quantity().or(word.quantity);
-        mixed = true;
-        spoken = true;
+        word.quantity = said.and_then(Word::quantity).or(word.quantity);
     }
-    if !spoken {
-        word.merged_and_h().0.fill(0.0);
-    }
-    spoken
 }
 
 /// The reference's preprocessing of one-hot language words; rare in data, as they arise by clipping
 /// only.
-fn soften_one_hot<
-    const N: usize,
-    const C: usize,
-    const F: usize,
-    const E: usize,
-    const W: usize,
->(
-    situation: Situation<'_, N, C, F, E, W>,
+fn soften_one_hot<const N: usize, const C: usize, const F: usize, const E: usize>(
+    scene: &Scene<E, F>,
+    slot: &Slot<'_, C, N>,
     category: Category,
     modality: u8,
     word: &mut [f32],
 ) {
-    let language = situation.observations.get(LANGUAGE);
-    let hot = language
-        .and_then(|s| align::word_of(s, category))
-        .is_some_and(|w| reference::is_one_hot(w.likelihoods()));
-    if !hot {
+    let said = slot.get(usize::from(LANGUAGE)).copied().flatten();
+    if !said.is_some_and(|said| reference::is_one_hot(said.likelihoods())) {
         return;
     }
-    let there =
-        |i: usize| u8::try_from(i).is_ok_and(|i| situation.scene.find(category, i).is_some());
+    let there = |i: usize| u8::try_from(i).is_ok_and(|i| scene.find(category, i).is_some());
     match (category, modality) {
         (Category::ACTION, LANGUAGE) => reference::lift(word, |_| true),
         (Category::OBJECT, LANGUAGE) => reference::lift(word, there),
@@ -197,16 +164,10 @@ fn soften_one_hot<
     }
 }
 
-/// Whether one modality's likelihoods of this category sum to more than `least`.
-fn visible<const W: usize, const C: usize, const N: usize>(
-    observations: &Observations<W, C, N>,
-    category: Category,
-    least: f32,
-) -> bool {
-    observations
-        .iter()
-        .filter_map(|sentence| align::word_of(sentence, category))
-        .any(|word: &Word<C, N>| word.likelihoods().iter().sum::<f32>() > least)
+/// Whether one modality's likelihoods sum to more than `least`.
+fn visible<const C: usize, const N: usize>(slot: &Slot<'_, C, N>, least: f32) -> bool {
+    let mut words = slot.iter().flatten();
+    words.any(|word| word.likelihoods().iter().sum::<f32>() > least)
 }
 
 /// Judges the options of a merged word.
@@ -233,35 +194,40 @@ fn weigh_actions<const N: usize, const C: usize, const F: usize, const E: usize>
     for (p, word) in present.iter_mut().zip(trace.categories()) {
         *p = word.present;
     }
-    let ln_penalty = math::ln(profile.signature_penalty);
+    let used = vocabulary.options().len();
+    let present = present.get(..used).unwrap_or(&present);
     let mut judged = [Judgement::NOTHING; 2];
     for (judgement, category) in judged.iter_mut().zip([Category::OBJECT, Category::STORAGE]) {
         if let Some(word) = trace.category(category) {
             *judgement = word.judgement;
         }
     }
-    if let Some(word) = trace.category(Category::ACTION) {
-        trace.heard = word.merged;
-    }
-    let factors = trace.alpha.iter_mut().zip(trace.beta.iter_mut());
-    for ((alpha_a, beta_a), action) in factors.zip(vocabulary.actions()) {
+    let ln_penalty = math::ln(profile.signature_penalty);
+    let (mut last_mismatch, mut last_alpha) = (0.0, 1.0);
+    let (word, heard, alphas, betas) = trace.actions_mut();
+    let Some(word) = word else { return };
+    let (merged, _) = word.merged_and_h();
+    let figures = heard.iter_mut().zip(alphas).zip(betas);
+    for ((w, ((h, a), b)), action) in merged.iter_mut().zip(figures).zip(vocabulary.actions()) {
+        *h = *w;
+        *a = 1.0;
+        *b = 1.0;
         if matches!(profile.model, Model::M2 | Model::M3) {
-            *alpha_a = alpha(signature_mismatch(action.signature, &present), ln_penalty);
+            // Actions of one signature stand together in most vocabularies: one exponential for all.
+            let mismatch = signature_mismatch(action.signature, present);
+            if mismatch != last_mismatch {
+                last_mismatch = mismatch;
+                last_alpha = alpha(mismatch, ln_penalty);
+            }
+            *a = last_alpha;
         }
         if profile.model == Model::M3 {
-            *beta_a = beta(action, scene, profile.beta, judged);
+            *b = beta(action, scene, profile.beta, judged);
         }
+        *w *= *a * *b;
     }
-    let (alphas, betas) = (trace.alpha, trace.beta);
-    let Some(word) = trace.categories_mut().first_mut() else {
+    if heard.iter().all(|&h| h <= 0.0) {
         return;
-    };
-    let (merged, _) = word.merged_and_h();
-    if merged.iter().all(|&w| w <= 0.0) {
-        return;
-    }
-    for ((w, a), b) in merged.iter_mut().zip(alphas).zip(betas) {
-        *w *= a * b;
     }
     if profile.threshold.is_relative() && !profile.reference_quirks {
         entropy::normalise(merged);
@@ -287,7 +253,7 @@ fn beta<const F: usize, const E: usize>(
                 .iter()
                 .filter(|e| e.category == category && (any || judgement.is_clear(e.option)))
                 .fold(0.0, |best, e| {
-                    f32::max(best, alignment(requirement, &e.features))
+                    larger(best, alignment(requirement, &e.features))
                 });
         }
     }

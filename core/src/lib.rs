@@ -50,10 +50,10 @@ pub mod protocol;
 pub mod reference;
 pub mod scene;
 pub mod sentence;
+pub mod tables;
 pub mod time;
 pub mod trace;
 pub mod unit;
 pub mod vocabulary;
-pub mod white_noise;
 
 pub use capacity::{board, large};

@@ -4,11 +4,19 @@
 use serde::{Deserialize, Serialize};
 
 use crate::entropy;
+use crate::math::larger;
 
 /// The mixing operator of eq. 3, applied option by option.
 pub trait Mix {
     /// The merged likelihood so far and that of one more modality, mixed.
     fn mix(&self, merged: f32, word: f32) -> f32;
+
+    /// The same for all options of a word that is weighted with `weight`.
+    fn mix_in(&self, merged: &mut [f32], word: &[f32], weight: f32) {
+        for (m, w) in merged.iter_mut().zip(word) {
+            *m = self.mix(*m, weight * w);
+        }
+    }
 }
 
 /// The paper's three mixing operators.
@@ -25,9 +33,18 @@ pub enum Merge {
 impl Mix for Merge {
     fn mix(&self, merged: f32, word: f32) -> f32 {
         match self {
-            Self::Max => merged.max(word),
+            Self::Max => larger(merged, word),
             Self::Mul => merged * word,
             Self::Add => merged + word,
+        }
+    }
+
+    fn mix_in(&self, merged: &mut [f32], word: &[f32], weight: f32) {
+        let each = merged.iter_mut().zip(word);
+        match self {
+            Self::Max => each.for_each(|(m, w)| *m = larger(*m, weight * w)),
+            Self::Mul => each.for_each(|(m, w)| *m *= weight * w),
+            Self::Add => each.for_each(|(m, w)| *m += weight * w),
         }
     }
 }
@@ -38,15 +55,7 @@ impl Mix for Merge {
 pub fn penalise(word: &mut [f32], h: &mut [f32], least_h: f32) {
     entropy::diagonal_cross_entropy(word, h);
     for (w, h) in word.iter_mut().zip(h) {
-        *w = (*w + entropy::EPSILON) / h.max(least_h);
-    }
-}
-
-/// Mixes one more weighted word into `merged`; the `first` one is copied.
-pub fn mix_in(merged: &mut [f32], word: &[f32], weight: f32, first: bool, mix: &impl Mix) {
-    for (m, w) in merged.iter_mut().zip(word) {
-        let w = weight * w;
-        *m = if first { w } else { mix.mix(*m, w) };
+        *w = (*w + entropy::EPSILON) / larger(*h, least_h);
     }
 }
 
@@ -62,12 +71,12 @@ mod tests {
     }
 
     #[test]
-    fn the_first_word_alone_is_itself_weighted() {
-        let mut merged = [9.0; 2];
-        mix_in(&mut merged, &[0.5, 1.0], 0.5, true, &Merge::Mul);
-        assert_eq!(merged, [0.25, 0.5]);
-        mix_in(&mut merged, &[1.0, 0.5], 1.0, false, &Merge::Add);
-        assert_eq!(merged, [1.25, 1.0]);
+    fn whole_words_are_mixed_as_their_options_are() {
+        for merge in [Merge::Max, Merge::Mul, Merge::Add] {
+            let mut merged = [0.25, 0.5];
+            merge.mix_in(&mut merged, &[1.0, 0.5], 0.5);
+            assert_eq!(merged, [merge.mix(0.25, 0.5), merge.mix(0.5, 0.25)]);
+        }
     }
 
     #[test]

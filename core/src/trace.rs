@@ -30,7 +30,7 @@ impl<const N: usize> CategoryTrace<N> {
         options: 0,
         merged: [0.0; N],
         h: [0.0; N],
-        entropy: 1.0,
+        entropy: 0.0,
         threshold: 0.0,
         quantity: None,
         judgement: Judgement::NOTHING,
@@ -65,9 +65,9 @@ pub struct Trace<const C: usize, const N: usize> {
     categories: [CategoryTrace<N>; C],
     /// The merged action word before any penalty.
     pub heard: [f32; N],
-    /// alpha of every action (eq. 7); 1 where the model has none.
+    /// alpha of every action (eq. 7); 1 when the model has none.
     pub alpha: [f32; N],
-    /// beta of every action (eq. 10); 1 where the model has none.
+    /// beta of every action (eq. 10); 1 when the model has none.
     pub beta: [f32; N],
 }
 
@@ -84,14 +84,31 @@ impl<const C: usize, const N: usize> Trace<C, N> {
         Self {
             categories: [CategoryTrace::NONE; C],
             heard: [0.0; N],
-            alpha: [1.0; N],
-            beta: [1.0; N],
+            alpha: [0.0; N],
+            beta: [0.0; N],
         }
     }
 
-    /// Forgets the last decision.
+    /// Forgets the last decision. Only what it wrote is written again, a tenth of the whole.
     pub fn clear(&mut self) {
-        *self = Self::new();
+        let actions = self
+            .categories
+            .first()
+            .map_or(0, |word| usize::from(word.options));
+        for figures in [&mut self.heard, &mut self.alpha, &mut self.beta] {
+            figures.iter_mut().take(actions).for_each(|x| *x = 0.0);
+        }
+        for word in self.categories.iter_mut().filter(|word| word.options > 0) {
+            let (merged, h) = word.merged_and_h();
+            merged.fill(0.0);
+            h.fill(0.0);
+            word.present = 0.0;
+            word.options = 0;
+            word.entropy = 0.0;
+            word.threshold = 0.0;
+            word.quantity = None;
+            word.judgement = Judgement::NOTHING;
+        }
     }
 
     /// All categories, actions first.
@@ -104,6 +121,27 @@ impl<const C: usize, const N: usize> Trace<C, N> {
     #[must_use]
     pub fn category(&self, category: Category) -> Option<&CategoryTrace<N>> {
         self.categories.get(category.index())
+    }
+
+    /// The action word and the figures of the actions, to be written.
+    #[allow(
+        clippy::type_complexity,
+        reason = "four parts of one struct, borrowed at once"
+    )]
+    pub(crate) fn actions_mut(
+        &mut self,
+    ) -> (
+        Option<&mut CategoryTrace<N>>,
+        &mut [f32; N],
+        &mut [f32; N],
+        &mut [f32; N],
+    ) {
+        (
+            self.categories.first_mut(),
+            &mut self.heard,
+            &mut self.alpha,
+            &mut self.beta,
+        )
     }
 
     pub(crate) fn categories_mut(&mut self) -> &mut [CategoryTrace<N>] {

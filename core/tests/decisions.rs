@@ -6,7 +6,7 @@ use common::*;
 use deictic_core::board::{Observations, Trace, Word};
 use deictic_core::category::Category;
 use deictic_core::decide::{Outcome, Question, Reason};
-use deictic_core::fuse::{FuseError, Situation, fuse_with};
+use deictic_core::fuse::{Situation, fuse_with};
 use deictic_core::merge::{Merge, Mix};
 use deictic_core::profile::{Model, Profile, ProfileError, Threshold};
 use deictic_core::sentence::{GESTURE, LANGUAGE, SentenceError};
@@ -186,10 +186,10 @@ fn a_users_operator_mixes() {
     let (vocabulary, scene) = (vocabulary(), scene());
     let mut observations = Observations::new();
     observations
-        .insert(command(LANGUAGE, PICK, Some(CAN), None))
+        .insert(command(LANGUAGE, PICK, Some(CAN), None), &vocabulary)
         .unwrap();
     observations
-        .insert(command(GESTURE, PICK, Some(CAN), None))
+        .insert(command(GESTURE, PICK, Some(CAN), None), &vocabulary)
         .unwrap();
     let situation = Situation {
         vocabulary: &vocabulary,
@@ -266,22 +266,36 @@ fn what_cannot_be_is_refused_and_leaves_no_trace() {
         GESTURE,
         &[Word::certain(Category::ACTION, &likelihoods).unwrap()],
     );
-    let (decision, trace) = decide_in(&scene(), &[bad], &Profile::PAPER);
+    let mut observations = Observations::new();
     let error = SentenceError::BadLikelihood { word: 0 };
-    assert_eq!(
-        decision,
-        Err(FuseError::Sentence {
-            modality: GESTURE,
-            error
-        })
-    );
-    assert_eq!(trace, Trace::new());
+    assert_eq!(observations.insert(bad, &vocabulary()), Err(error));
+    assert_eq!(observations, Observations::new());
     let profile = Profile {
         lead: f32::NAN,
         ..Profile::PAPER
     };
-    assert_eq!(
-        decide(&[], &profile),
-        Err(FuseError::Profile(ProfileError::Lead))
-    );
+    let said = command(LANGUAGE, PICK, Some(CAN), None);
+    let (decision, trace) = decide_in(&scene(), &[said], &profile);
+    assert_eq!(decision, Err(ProfileError::Lead));
+    assert_eq!(trace, Trace::new());
+}
+
+#[test]
+fn a_trace_that_was_used_before_says_the_same_as_a_new_one() {
+    let (vocabulary, scene) = (vocabulary(), scene());
+    let mut used = Trace::new();
+    for said in [
+        command(LANGUAGE, PUT, Some(CAN), Some(DRAWER)),
+        command(LANGUAGE, STOP, None, None),
+    ] {
+        let mut observations = Observations::new();
+        observations.insert(said.clone(), &vocabulary).unwrap();
+        let situation = Situation {
+            vocabulary: &vocabulary,
+            scene: &scene,
+            observations: &observations,
+        };
+        deictic_core::fuse::fuse(situation, &Profile::PAPER, &mut used).unwrap();
+        assert_eq!(used, decide_in(&scene, &[said], &Profile::PAPER).1);
+    }
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::*;
-use deictic_core::board::{Message, Sentence, Unit, Word};
+use deictic_core::board::{Sentence, ToHost, ToUnit, Unit, Word};
 use deictic_core::category::Category;
 use deictic_core::decide::{Outcome, Reason};
 use deictic_core::protocol::link::Link;
@@ -18,7 +18,7 @@ use deictic_core::unit::{HEARTBEAT, HOST_LOST};
 /// A host and a unit, with a clock of their own between them.
 struct Bench {
     unit: Unit,
-    link: Link<768>,
+    link: Link<256>,
     now: Micros,
 }
 
@@ -38,57 +38,68 @@ impl Bench {
         for part in vocabulary_parts() {
             bench.say(&part);
         }
-        let heard = bench.say(&scene_part(1));
-        assert_eq!(heard, [Message::Loaded(Loaded::Scene(1))]);
+        let heard = bench.all(scene_parts(1));
+        assert_eq!(heard, [ToHost::Loaded(Loaded::Scene(1))]);
         bench
     }
 
-    fn frame(&mut self, message: &Message) -> Vec<u8> {
+    fn frame(&mut self, message: &ToUnit) -> Vec<u8> {
         let mut out = Outbox::<2048>::new();
         assert!(self.link.send(message, &mut out));
         out.waiting().to_vec()
     }
 
-    fn say(&mut self, message: &Message) -> Vec<Message> {
+    fn say(&mut self, message: &ToUnit) -> Vec<ToHost> {
         let bytes = self.frame(message);
         self.bytes(&bytes)
     }
 
-    fn bytes(&mut self, bytes: &[u8]) -> Vec<Message> {
+    fn bytes(&mut self, bytes: &[u8]) -> Vec<ToHost> {
         self.unit.receive(self.now, bytes);
         self.heard()
     }
 
-    fn wait(&mut self, ms: u64) -> Vec<Message> {
+    fn wait(&mut self, ms: u64) -> Vec<ToHost> {
         self.now = self.now.after(Micros::from_millis(ms));
         self.unit.poll(self.now);
         self.heard()
     }
 
-    fn heard(&mut self) -> Vec<Message> {
+    fn heard(&mut self) -> Vec<ToHost> {
         let bytes = self.unit.outgoing().to_vec();
         self.unit.sent(bytes.len());
         let mut messages = Vec::new();
         let mut ear = Link::<4096>::new();
         for byte in bytes {
             // A fresh ear each time takes any sequence number up to the half of all.
-            messages.extend(ear.receive::<Message>(byte).map(|r| r.message));
+            messages.extend(ear.receive::<ToHost>(byte).map(|r| r.message));
         }
         messages
     }
 
+    fn all(&mut self, messages: Vec<ToUnit>) -> Vec<ToHost> {
+        messages
+            .iter()
+            .flat_map(|message| self.say(message))
+            .collect()
+    }
+
+    fn tell(&mut self, sentence: &Sentence) -> Vec<ToHost> {
+        self.all(sentence_parts(sentence, None))
+    }
+
     fn decision(&mut self, sentence: Sentence) -> Option<Decided<8>> {
-        let heard = self.say(&Message::Sentence(sentence));
+        let heard = self.tell(&sentence);
         heard.into_iter().find_map(|m| match m {
-            Message::Decision(d) => Some(d),
+            ToHost::Decision(d) => Some(d),
             _ => None,
         })
     }
 }
 
-fn hello() -> Message {
+fn hello() -> ToUnit {
     let capacities = Unit::capacities();
-    Message::Hello(Hello {
+    ToUnit::Hello(Hello {
         version: VERSION,
         schema: SCHEMA,
         boot: 1,
@@ -96,43 +107,67 @@ fn hello() -> Message {
     })
 }
 
-fn vocabulary_parts() -> Vec<Message> {
+fn vocabulary_parts() -> Vec<ToUnit> {
     let vocabulary = vocabulary();
     let total = vocabulary.actions().len() as u8;
     let part = |(i, actions): (usize, &[_])| {
-        Message::Vocabulary(VocabularyPart {
+        ToUnit::Vocabulary(VocabularyPart {
             fingerprint: vocabulary.fingerprint(),
             parameters: vocabulary.options()[1..].iter().copied().collect(),
             features: vocabulary.features() as u8,
             stop: vocabulary.stop(),
             total,
-            first: (i * PART) as u8,
+            first: (i * ACTIONS_PART) as u8,
             actions: actions.iter().copied().collect(),
         })
     };
     vocabulary
         .actions()
-        .chunks(PART)
+        .chunks(ACTIONS_PART)
         .enumerate()
         .map(part)
         .collect()
 }
 
-fn scene_part(version: u32) -> Message {
-    let entities = things().into_iter().collect();
-    Message::Scene(ScenePart {
-        version,
-        total: 4,
-        first: 0,
-        entities,
-    })
+fn scene_parts(version: u32) -> Vec<ToUnit> {
+    let part = |(i, entities): (usize, &[deictic_core::board::Entity])| {
+        ToUnit::Scene(ScenePart {
+            version,
+            total: 4,
+            first: (i * ENTITIES_PART) as u8,
+            entities: entities.iter().cloned().collect(),
+        })
+    };
+    things()
+        .chunks(ENTITIES_PART)
+        .enumerate()
+        .map(part)
+        .collect()
 }
 
-fn faults(messages: &[Message]) -> Vec<Fault> {
+fn sentence_parts(sentence: &Sentence, answers: Option<u32>) -> Vec<ToUnit> {
+    let part = |(i, words): (usize, &[Word])| {
+        ToUnit::Sentence(SentencePart {
+            modality: sentence.modality(),
+            answers,
+            total: sentence.words().len() as u8,
+            first: (i * WORDS_PART) as u8,
+            words: words.iter().cloned().collect(),
+        })
+    };
+    sentence
+        .words()
+        .chunks(WORDS_PART)
+        .enumerate()
+        .map(part)
+        .collect()
+}
+
+fn faults(messages: &[ToHost]) -> Vec<Fault> {
     messages
         .iter()
         .filter_map(|m| match m {
-            Message::Fault(fault) => Some(*fault),
+            ToHost::Fault(fault) => Some(*fault),
             _ => None,
         })
         .collect()
@@ -169,13 +204,13 @@ fn one_modality_is_decided_when_the_window_closes() {
         !bench
             .wait(400)
             .iter()
-            .any(|m| matches!(m, Message::Decision(_)))
+            .any(|m| matches!(m, ToHost::Decision(_)))
     );
     let wake = bench.unit.next_wake();
     assert!(wake <= bench.now.after(HEARTBEAT));
     let heard = bench.wait(700);
     let decided = heard.iter().find_map(|m| match m {
-        Message::Decision(d) => Some(d),
+        ToHost::Decision(d) => Some(d),
         _ => None,
     });
     assert_eq!(decided.unwrap().modalities, 0b10);
@@ -210,7 +245,7 @@ fn a_bare_stop_is_told_at_once_whatever_waits() {
         !bench
             .wait(1_500)
             .iter()
-            .any(|m| matches!(m, Message::Decision(_)))
+            .any(|m| matches!(m, ToHost::Decision(_)))
     );
 }
 
@@ -221,7 +256,7 @@ fn a_stop_among_other_words_stops_a_moving_robot_only() {
     assert_eq!(bench.decision(stop_the_can()), None);
     bench.wait(1_100);
     let state = RobotState::Running(10);
-    bench.say(&Message::Robot(RobotStatus { decision: 1, state }));
+    bench.say(&ToUnit::Robot(RobotStatus { decision: 1, state }));
     let stop = bench.decision(stop_the_can()).unwrap();
     assert_eq!(executed(&stop.decision), Some((STOP, None, None)));
 }
@@ -240,7 +275,7 @@ fn a_stop_needs_no_scene() {
 #[test]
 fn an_answer_completes_what_was_asked() {
     let mut bench = Bench::ready();
-    bench.say(&Message::Configure(Configuration {
+    bench.say(&ToUnit::Configure(Configuration {
         expected: 0b10,
         ..Configuration::DEFAULT
     }));
@@ -254,23 +289,23 @@ fn an_answer_completes_what_was_asked() {
     );
     let reply = |decision| {
         let sentence = sentence(LANGUAGE, &[word(Category::OBJECT, CAN)]);
-        Message::Answer(Answer { decision, sentence })
+        sentence_parts(&sentence, Some(decision))
     };
-    let wrong = bench.say(&reply(asked.number + 1));
+    let wrong = bench.all(reply(asked.number + 1));
     assert_eq!(
         faults(&wrong),
         [Fault::NoQuestion {
             decision: asked.number + 1
         }]
     );
-    let heard = bench.say(&reply(asked.number));
-    let Some(Message::Decision(decided)) = heard.first() else {
+    let heard = bench.all(reply(asked.number));
+    let Some(ToHost::Decision(decided)) = heard.first() else {
         panic!("{heard:?}")
     };
     assert_eq!(executed(&decided.decision), Some((PICK, Some(CAN), None)));
     assert_eq!(decided.modalities, 0b1010);
     // The question is closed.
-    let late = bench.say(&reply(asked.number));
+    let late = bench.all(reply(asked.number));
     assert_eq!(
         faults(&late),
         [Fault::NoQuestion {
@@ -287,17 +322,14 @@ fn why_is_told_when_wanted() {
         expected: 0b10,
         ..Configuration::DEFAULT
     };
-    bench.say(&Message::Configure(configuration));
-    let heard = bench.say(&Message::Sentence(said()));
+    bench.say(&ToUnit::Configure(configuration));
+    let heard = bench.tell(&said());
     let actions = heard.iter().find_map(|m| match m {
-        Message::WhyActions(why) => Some(why.alpha.len()),
+        ToHost::WhyActions(why) => Some(why.alpha.len()),
         _ => None,
     });
     assert_eq!(actions, Some(9));
-    let categories = heard
-        .iter()
-        .filter(|m| matches!(m, Message::Why(_)))
-        .count();
+    let categories = heard.iter().filter(|m| matches!(m, ToHost::Why(_))).count();
     assert_eq!(categories, 3);
 }
 
@@ -311,35 +343,29 @@ fn another_schema_is_named_and_nothing_is_done() {
         boot: 1,
         capacities,
     };
-    let heard = bench.say(&Message::Hello(old));
+    let heard = bench.say(&ToUnit::Hello(old));
     let fault = Fault::Schema {
         unit: (VERSION, SCHEMA),
         host: (0, 7),
     };
     assert_eq!(faults(&heard), [fault]);
-    assert_eq!(
-        faults(&bench.say(&Message::Sentence(said()))),
-        [Fault::NoHello]
-    );
+    assert_eq!(faults(&bench.say(&ToUnit::AskStatistics)), [Fault::NoHello]);
 }
 
 #[test]
 fn words_before_their_time_are_refused() {
     let mut bench = Bench::new();
-    assert_eq!(faults(&bench.say(&scene_part(1))), [Fault::NoHello]);
+    assert_eq!(faults(&bench.say(&scene_parts(1)[0])), [Fault::NoHello]);
     bench.say(&hello());
-    assert_eq!(faults(&bench.say(&scene_part(1))), [Fault::NoVocabulary]);
     assert_eq!(
-        faults(&bench.say(&Message::Sentence(said()))),
+        faults(&bench.say(&scene_parts(1)[0])),
         [Fault::NoVocabulary]
     );
+    assert_eq!(faults(&bench.tell(&said())), [Fault::NoVocabulary]);
     for part in vocabulary_parts() {
         bench.say(&part);
     }
-    assert_eq!(
-        faults(&bench.say(&Message::Sentence(said()))),
-        [Fault::NoScene]
-    );
+    assert_eq!(faults(&bench.tell(&said())), [Fault::NoScene]);
 }
 
 #[test]
@@ -355,18 +381,18 @@ fn parts_out_of_order_leave_the_old_in_force() {
     bench.decision(said());
     assert!(bench.decision(shown()).is_some());
     // From the first part on it can be sent again.
-    let heard: Vec<Message> = parts.iter().flat_map(|p| bench.say(p)).collect();
-    assert_eq!(heard, [Message::Loaded(Loaded::Vocabulary(0xdec1_c71c))]);
+    let heard: Vec<ToHost> = parts.iter().flat_map(|p| bench.say(p)).collect();
+    assert_eq!(heard, [ToHost::Loaded(Loaded::Vocabulary(0xdec1_c71c))]);
 }
 
 #[test]
 fn a_scene_that_is_not_newer_is_refused() {
     let mut bench = Bench::ready();
-    let heard = bench.say(&scene_part(1));
+    let heard = bench.say(&scene_parts(1)[0]);
     assert_eq!(faults(&heard), [Fault::OldScene { held: 1, got: 1 }]);
     assert_eq!(
-        bench.say(&scene_part(2)),
-        [Message::Loaded(Loaded::Scene(2))]
+        bench.all(scene_parts(2)),
+        [ToHost::Loaded(Loaded::Scene(2))]
     );
     let empty = ScenePart {
         version: 3,
@@ -375,8 +401,8 @@ fn a_scene_that_is_not_newer_is_refused() {
         entities: heapless::Vec::new(),
     };
     assert_eq!(
-        bench.say(&Message::Scene(empty)),
-        [Message::Loaded(Loaded::Scene(3))]
+        bench.say(&ToUnit::Scene(empty)),
+        [ToHost::Loaded(Loaded::Scene(3))]
     );
     bench.decision(said());
     let decided = bench.decision(shown()).unwrap();
@@ -387,7 +413,7 @@ fn a_scene_that_is_not_newer_is_refused() {
 fn a_sentence_that_cannot_be_is_refused_with_its_place() {
     let mut bench = Bench::ready();
     let bad = Word::certain(Category::OBJECT, &[f32::NAN; 5]).unwrap();
-    let heard = bench.say(&Message::Sentence(sentence(LANGUAGE, &[Word::ABSENT, bad])));
+    let heard = bench.tell(&sentence(LANGUAGE, &[Word::ABSENT, bad]));
     let error = SentenceError::BadLikelihood { word: 1 };
     assert_eq!(
         faults(&heard),
@@ -396,22 +422,44 @@ fn a_sentence_that_cannot_be_is_refused_with_its_place() {
             error
         }]
     );
-    let heard = bench.say(&Message::Sentence(command(9, PICK, Some(CAN), None)));
+    let heard = bench.tell(&command(9, PICK, Some(CAN), None));
     let error = SentenceError::UnknownModality { capacity: 4 };
     assert_eq!(faults(&heard), [Fault::Sentence { modality: 9, error }]);
 }
 
 #[test]
+fn a_sentence_that_lost_a_part_is_refused_and_can_be_said_again() {
+    let mut bench = Bench::ready();
+    let parts = sentence_parts(&said(), None);
+    let fault = Fault::PartOutOfOrder {
+        expected: 0,
+        got: 2,
+    };
+    assert_eq!(faults(&bench.say(&parts[1])), [fault]);
+    bench.say(&parts[0]);
+    let other = sentence_parts(&shown(), None);
+    assert_eq!(faults(&bench.say(&other[1])), [fault]);
+    assert_eq!(bench.decision(said()), None);
+    assert!(bench.decision(shown()).is_some());
+}
+
+#[test]
 fn a_unit_does_not_take_what_units_say() {
     let mut bench = Bench::ready();
-    let heard = bench.say(&Message::Loaded(Loaded::Configuration));
-    assert_eq!(faults(&heard), [Fault::NotForUnit]);
+    let mut out = Outbox::<64>::new();
+    bench
+        .link
+        .send(&ToHost::Loaded(Loaded::Configuration), &mut out);
+    assert!(bench.bytes(out.waiting()).is_empty());
+    assert_eq!(bench.unit.statistics().link.undecodable, 1);
 }
 
 #[test]
 fn damaged_frames_are_counted_and_the_next_sound_one_is_taken() {
     let mut bench = Bench::ready();
-    let good = bench.frame(&Message::Sentence(said()));
+    // A command of two words, which is one frame.
+    let pick = command(LANGUAGE, PICK, Some(CAN), None);
+    let good = bench.frame(&sentence_parts(&pick, None)[0]);
     for at in 0..good.len() - 1 {
         let mut bad = good.clone();
         bad[at] ^= 0x10;
@@ -431,8 +479,9 @@ fn damaged_frames_are_counted_and_the_next_sound_one_is_taken() {
 #[test]
 fn duplicated_and_reordered_frames_are_not_taken_twice() {
     let mut bench = Bench::ready();
-    let first = bench.frame(&Message::Sentence(said()));
-    let second = bench.frame(&Message::Sentence(shown()));
+    let pick = |modality| sentence_parts(&command(modality, PICK, Some(CAN), None), None);
+    let first = bench.frame(&pick(LANGUAGE)[0]);
+    let second = bench.frame(&pick(GESTURE)[0]);
     assert!(bench.bytes(&first).is_empty());
     assert!(bench.bytes(&first).is_empty());
     assert_eq!(bench.bytes(&second).len(), 1);
@@ -451,16 +500,13 @@ fn a_silent_host_is_given_up_and_what_waited_is_forgotten() {
         window: Micros::from_millis(10_000),
         ..Configuration::DEFAULT
     };
-    bench.say(&Message::Configure(configuration));
+    bench.say(&ToUnit::Configure(configuration));
     bench.decision(said());
     let heard = bench.wait(HOST_LOST.0 / 1_000);
     assert_eq!(faults(&heard), [Fault::HostLost]);
     assert!(bench.wait(20_000).is_empty());
     assert_eq!(bench.unit.next_wake(), Micros::NEVER);
-    assert_eq!(
-        faults(&bench.say(&Message::Sentence(shown()))),
-        [Fault::NoHello]
-    );
+    assert_eq!(faults(&bench.say(&ToUnit::AskStatistics)), [Fault::NoHello]);
 }
 
 #[test]
@@ -470,12 +516,9 @@ fn a_new_hello_empties_the_unit() {
     bench.link = Link::new();
     assert!(matches!(
         bench.say(&hello())[..],
-        [Message::Hello(Hello { boot: 42, .. })]
+        [ToHost::Hello(Hello { boot: 42, .. })]
     ));
-    assert_eq!(
-        faults(&bench.say(&Message::Sentence(shown()))),
-        [Fault::NoVocabulary]
-    );
+    assert_eq!(faults(&bench.tell(&shown())), [Fault::NoVocabulary]);
 }
 
 #[test]
@@ -487,7 +530,7 @@ fn heartbeats_tell_what_is_held() {
         vocabulary: 0xdec1_c71c,
         scene: 1,
     };
-    assert_eq!(heard, [Message::Heartbeat(beat)]);
+    assert_eq!(heard, [ToHost::Heartbeat(beat)]);
     assert!(bench.wait(499).is_empty());
     assert_eq!(bench.wait(1).len(), 1);
 }
@@ -497,17 +540,17 @@ fn too_much_is_refused_by_capacity() {
     let mut bench = Bench::new();
     bench.say(&hello());
     let part = |first: u8| {
-        Message::Vocabulary(VocabularyPart {
+        ToUnit::Vocabulary(VocabularyPart {
             fingerprint: 1,
             parameters: heapless::Vec::new(),
             features: 0,
             stop: None,
             total: 20,
             first,
-            actions: [Default::default(); PART].into_iter().collect(),
+            actions: [Default::default(); ACTIONS_PART].into_iter().collect(),
         })
     };
-    let heard: Vec<Message> = (0..5).flat_map(|i| bench.say(&part(i * 4))).collect();
+    let heard: Vec<ToHost> = (0..5).flat_map(|i| bench.say(&part(i * 4))).collect();
     let error = deictic_core::vocabulary::VocabularyError::TooManyActions { capacity: 16 };
     assert_eq!(faults(&heard), [Fault::Vocabulary(error)]);
 }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use deictic_core::board::{Link, Message, Unit};
+use deictic_core::board::{Link, ToHost, ToUnit, Unit};
 use deictic_core::protocol::message::Hello;
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
@@ -125,7 +125,7 @@ impl Table {
     fn say_hello(&mut self) {
         let mut frame = Outbox::<2048>::new();
         assert!(self.host.send(
-            &Message::Hello(Hello {
+            &ToUnit::Hello(Hello {
                 version: VERSION,
                 schema: SCHEMA,
                 boot: 1,
@@ -143,7 +143,7 @@ impl Table {
             .expect("the loop comes to rest")
     }
 
-    fn heard(&mut self) -> Vec<Message> {
+    fn heard(&mut self) -> Vec<ToHost> {
         let bytes = std::mem::take(&mut self.board.link.outgoing);
         let host = &mut self.host;
         bytes
@@ -155,7 +155,7 @@ impl Table {
     fn hears_hello(&mut self) -> bool {
         self.heard()
             .iter()
-            .any(|message| matches!(message, Message::Hello(hello) if hello.boot == 7))
+            .any(|message| matches!(message, ToHost::Hello(hello) if hello.boot == 7))
     }
 }
 
@@ -202,7 +202,7 @@ fn a_noisy_link_does_not_keep_the_unit_from_its_timers() {
     table.board.now = table.board.now.after(HEARTBEAT);
     turn(&mut table.board, &mut table.unit);
     assert!(!table.board.link.incoming.is_empty());
-    let heartbeat = |message: &Message| matches!(message, Message::Heartbeat(_));
+    let heartbeat = |message: &ToHost| matches!(message, ToHost::Heartbeat(_));
     assert!(table.heard().iter().any(heartbeat));
 }
 

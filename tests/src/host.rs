@@ -2,9 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use deictic_core::board::{Entity, Link, Message, Scene, Unit, Vocabulary};
+use deictic_core::board::{Entity, Link, Scene, Sentence, ToHost, ToUnit, Unit, Vocabulary, Word};
 use deictic_core::protocol::message::{
-    Configuration, Hello, Loaded, PART, ScenePart, VocabularyPart,
+    ACTIONS_PART, Configuration, ENTITIES_PART, Hello, Loaded, ScenePart, SentencePart,
+    VocabularyPart, WORDS_PART,
 };
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
@@ -68,7 +69,7 @@ pub struct Host<W> {
     /// The wire to the unit.
     pub wire: W,
     link: Link,
-    heard: Vec<Message>,
+    heard: Vec<ToHost>,
 }
 
 impl<W: Wire> Host<W> {
@@ -85,7 +86,7 @@ impl<W: Wire> Host<W> {
     ///
     /// # Panics
     /// When the message does not fit a frame.
-    pub fn say(&mut self, message: &Message) {
+    pub fn say(&mut self, message: &ToUnit) {
         let frame = self.frame(message);
         self.wire.write(&frame);
     }
@@ -94,7 +95,7 @@ impl<W: Wire> Host<W> {
     ///
     /// # Panics
     /// When the message does not fit a frame.
-    pub fn frame(&mut self, message: &Message) -> Vec<u8> {
+    pub fn frame(&mut self, message: &ToUnit) -> Vec<u8> {
         let mut out = Outbox::<2048>::new();
         assert!(
             self.link.send(message, &mut out),
@@ -108,7 +109,7 @@ impl<W: Wire> Host<W> {
     ///
     /// # Panics
     /// When none comes in time.
-    pub fn wait_for<T>(&mut self, wanted: impl Fn(&Message) -> Option<T>) -> T {
+    pub fn wait_for<T>(&mut self, wanted: impl Fn(&ToHost) -> Option<T>) -> T {
         let patience = Instant::now() + PATIENCE;
         loop {
             while !self.heard.is_empty() {
@@ -130,14 +131,14 @@ impl<W: Wire> Host<W> {
     /// Opens the conversation and gives the unit's Hello.
     pub fn hello(&mut self) -> Hello {
         let capacities = Unit::capacities();
-        self.say(&Message::Hello(Hello {
+        self.say(&ToUnit::Hello(Hello {
             version: VERSION,
             schema: SCHEMA,
             boot: 1,
             capacities,
         }));
         self.wait_for(|m| match m {
-            Message::Hello(hello) => Some(*hello),
+            ToHost::Hello(hello) => Some(*hello),
             _ => None,
         })
     }
@@ -145,41 +146,75 @@ impl<W: Wire> Host<W> {
     /// Loads a vocabulary, part by part.
     pub fn load_vocabulary(&mut self, vocabulary: &Vocabulary) {
         let fingerprint = vocabulary.fingerprint();
-        for (i, actions) in vocabulary.actions().chunks(PART).enumerate() {
-            self.say(&Message::Vocabulary(VocabularyPart {
+        for (i, actions) in vocabulary.actions().chunks(ACTIONS_PART).enumerate() {
+            self.say(&ToUnit::Vocabulary(VocabularyPart {
                 fingerprint,
                 parameters: vocabulary.options().iter().skip(1).copied().collect(),
                 features: u8::try_from(vocabulary.features()).expect("at most 32 features"),
                 stop: vocabulary.stop(),
                 total: u8::try_from(vocabulary.actions().len()).expect("at most 64 actions"),
-                first: u8::try_from(i * PART).expect("at most 64 actions"),
+                first: u8::try_from(i * ACTIONS_PART).expect("at most 64 actions"),
                 actions: actions.iter().copied().collect(),
             }));
         }
-        self.wait_for(|m| (*m == Message::Loaded(Loaded::Vocabulary(fingerprint))).then_some(()));
+        self.wait_for(|m| (*m == ToHost::Loaded(Loaded::Vocabulary(fingerprint))).then_some(()));
     }
 
     /// Loads the things of a scene under a version, part by part.
     pub fn load_scene(&mut self, version: u32, scene: &Scene) {
         let total = u8::try_from(scene.entities().len()).expect("at most 128 things");
-        let mut parts: Vec<&[Entity]> = scene.entities().chunks(PART).collect();
+        let mut parts: Vec<&[Entity]> = scene.entities().chunks(ENTITIES_PART).collect();
         if parts.is_empty() {
             parts.push(&[]);
         }
         for (i, entities) in parts.into_iter().enumerate() {
-            self.say(&Message::Scene(ScenePart {
+            self.say(&ToUnit::Scene(ScenePart {
                 version,
                 total,
-                first: u8::try_from(i * PART).expect("at most 128 things"),
+                first: u8::try_from(i * ENTITIES_PART).expect("at most 128 things"),
                 entities: entities.iter().cloned().collect(),
             }));
         }
-        self.wait_for(|m| (*m == Message::Loaded(Loaded::Scene(version))).then_some(()));
+        self.wait_for(|m| (*m == ToHost::Loaded(Loaded::Scene(version))).then_some(()));
+    }
+
+    /// Says a sentence, part by part.
+    ///
+    /// # Panics
+    /// When a part does not fit a frame.
+    pub fn tell(&mut self, sentence: &Sentence) {
+        for part in sentence_parts(sentence) {
+            self.say(&part);
+        }
     }
 
     /// Sets how to decide.
     pub fn configure(&mut self, configuration: Configuration) {
-        self.say(&Message::Configure(configuration));
-        self.wait_for(|m| (*m == Message::Loaded(Loaded::Configuration)).then_some(()));
+        self.say(&ToUnit::Configure(configuration));
+        self.wait_for(|m| (*m == ToHost::Loaded(Loaded::Configuration)).then_some(()));
     }
+}
+
+/// The messages that a sentence is said with.
+///
+/// # Panics
+/// Never: a sentence has fewer than 256 words.
+#[must_use]
+pub fn sentence_parts(sentence: &Sentence) -> Vec<ToUnit> {
+    let small = |n: usize| u8::try_from(n).expect("fewer than 256 words");
+    let part = |(i, words): (usize, &[Word])| {
+        ToUnit::Sentence(SentencePart {
+            modality: sentence.modality(),
+            answers: None,
+            total: small(sentence.words().len()),
+            first: small(i * WORDS_PART),
+            words: words.iter().cloned().collect(),
+        })
+    };
+    sentence
+        .words()
+        .chunks(WORDS_PART)
+        .enumerate()
+        .map(part)
+        .collect()
 }

@@ -1,4 +1,5 @@
-//! What unit and host say to each other.
+//! What unit and host say to each other. Larger things go in parts, so that a unit needs little room
+//! for any one message.
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -6,55 +7,69 @@ use serde::{Deserialize, Serialize};
 use super::link::{Counters, Opening};
 use crate::category::Category;
 use crate::decide::Decision;
-use crate::fuse::FuseError;
 use crate::profile::{Profile, ProfileError};
 use crate::scene::{Entity, SceneError};
-use crate::sentence::{Sentence, SentenceError};
+use crate::sentence::{SentenceError, Word};
 use crate::time::Micros;
 use crate::vocabulary::{Action, VocabularyError};
 
-/// How many actions or things one part of a vocabulary or scene carries.
-pub const PART: usize = 4;
+/// How many actions one part of a vocabulary carries.
+pub const ACTIONS_PART: usize = 4;
+/// How many things one part of a scene carries.
+pub const ENTITIES_PART: usize = 2;
+/// How many words one part of a sentence carries.
+pub const WORDS_PART: usize = 2;
 
-/// Everything that can be said, in either direction.
+/// What a host says to a unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Message<const N: usize, const C: usize, const F: usize, const W: usize> {
-    /// Opens a conversation and answers an opening. Its form never changes, so that ends of
-    /// different versions can tell each other so.
+pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
+    /// Opens a conversation. Its form never changes, so that ends of different versions can tell
+    /// each other so.
     Hello(Hello),
-    /// Both ways, twice a second and more: the sender lives.
+    /// Twice a second and more: the host lives.
     Heartbeat(Heartbeat),
-    /// Host to unit: part of a vocabulary.
-    Vocabulary(VocabularyPart<N, C>),
-    /// Host to unit: part of a scene.
+    /// Part of a vocabulary.
+    Vocabulary(VocabularyPart<C>),
+    /// Part of a scene.
     Scene(ScenePart<F>),
-    /// Host to unit: how to decide.
+    /// How to decide.
     Configure(Configuration),
-    /// Host to unit: what one modality observed.
-    Sentence(Sentence<W, C, N>),
-    /// Host to unit: the person's answer to a question.
-    Answer(Answer<W, C, N>),
-    /// Host to unit: how the robot fares with a command.
+    /// Part of what one modality observed, or of the person's answer to a question.
+    Sentence(SentencePart<C, N>),
+    /// How the robot fares with a command.
     Robot(RobotStatus),
-    /// Host to unit: tell your statistics.
+    /// Tell your statistics.
     AskStatistics,
-    /// Unit to host: this was taken over.
+}
+
+impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
+    fn opens(&self) -> bool {
+        matches!(self, Self::Hello(_))
+    }
+}
+
+/// What a unit says to a host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ToHost<const N: usize, const C: usize> {
+    /// Answers a Hello, and is the first thing a unit says that has restarted.
+    Hello(Hello),
+    /// Twice a second: the unit lives.
+    Heartbeat(Heartbeat),
+    /// This was taken over.
     Loaded(Loaded),
-    /// Unit to host: what to do now.
+    /// What to do now.
     Decision(Decided<C>),
-    /// Unit to host, when configured: why, one category at a time.
+    /// When configured: why, one category at a time.
     Why(Why<N>),
-    /// Unit to host, when configured: why, the actions' penalties.
+    /// When configured: why, the actions' penalties.
     WhyActions(WhyActions<N>),
-    /// Unit to host: something was not right; nothing was done.
+    /// Something was not right; nothing was done.
     Fault(Fault),
-    /// Unit to host: what it has counted.
+    /// What the unit has counted.
     Statistics(Statistics),
 }
 
-impl<const N: usize, const C: usize, const F: usize, const W: usize> Opening
-    for Message<N, C, F, W>
-{
+impl<const N: usize, const C: usize> Opening for ToHost<N, C> {
     fn opens(&self) -> bool {
         matches!(self, Self::Hello(_))
     }
@@ -101,9 +116,9 @@ pub struct Heartbeat {
     pub scene: u32,
 }
 
-/// Part of a vocabulary: up to [`PART`] of its actions, and all else with each.
+/// Part of a vocabulary: up to [`ACTIONS_PART`] of its actions, and all else with each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct VocabularyPart<const N: usize, const C: usize> {
+pub struct VocabularyPart<const C: usize> {
     /// The host's hash over all names.
     pub fingerprint: u32,
     /// Options of every category after the action.
@@ -117,10 +132,10 @@ pub struct VocabularyPart<const N: usize, const C: usize> {
     /// The place of this part's first.
     pub first: u8,
     /// The actions of this part.
-    pub actions: Vec<Action, PART>,
+    pub actions: Vec<Action, ACTIONS_PART>,
 }
 
-/// Part of a scene: up to [`PART`] of its things.
+/// Part of a scene: up to [`ENTITIES_PART`] of its things.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScenePart<const F: usize> {
     /// The scene's number; larger than the one before, never 0.
@@ -130,7 +145,7 @@ pub struct ScenePart<const F: usize> {
     /// The place of this part's first.
     pub first: u8,
     /// The things of this part.
-    pub entities: Vec<Entity<F>, PART>,
+    pub entities: Vec<Entity<F>, ENTITIES_PART>,
 }
 
 /// How to decide.
@@ -156,13 +171,19 @@ impl Configuration {
     };
 }
 
-/// The person's answer to a question, as one more sentence on what was asked.
+/// Part of a sentence: up to [`WORDS_PART`] of its words.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Answer<const W: usize, const C: usize, const N: usize> {
-    /// The number of the decision that asked.
-    pub decision: u32,
-    /// What was answered.
-    pub sentence: Sentence<W, C, N>,
+pub struct SentencePart<const C: usize, const N: usize> {
+    /// Which modality observed it.
+    pub modality: u8,
+    /// The number of the decision whose question it answers; `None` for a command.
+    pub answers: Option<u32>,
+    /// How many words there are in all.
+    pub total: u8,
+    /// The place of this part's first.
+    pub first: u8,
+    /// The words of this part.
+    pub words: Vec<Word<C, N>, WORDS_PART>,
 }
 
 /// How the robot fares with a command.
@@ -265,7 +286,8 @@ pub enum Fault {
     NoVocabulary,
     /// A sentence came before a scene.
     NoScene,
-    /// A part of a vocabulary or scene came out of order; send all parts again from the first.
+    /// A part of a vocabulary, scene or sentence came out of order; send all parts again from the
+    /// first.
     PartOutOfOrder {
         /// The place of the part's first that was expected.
         expected: u8,
@@ -292,15 +314,11 @@ pub enum Fault {
     },
     /// The configuration cannot be.
     Configuration(ProfileError),
-    /// A decision could not be made.
-    Decision(FuseError),
     /// An answer to a question that is not open.
     NoQuestion {
         /// The number that was answered.
         decision: u32,
     },
-    /// A message that only a unit sends.
-    NotForUnit,
     /// The host was not heard for too long: what was waiting is forgotten.
     HostLost,
 }

@@ -53,10 +53,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
     ///
     /// # Errors
     /// A [`Fault`]: the part is out of order, or the whole cannot be. The old one stays in force.
-    pub fn take_vocabulary(
-        &mut self,
-        part: &VocabularyPart<N, C>,
-    ) -> Result<Option<Loaded>, Fault> {
+    pub fn take_vocabulary(&mut self, part: &VocabularyPart<C>) -> Result<Option<Loaded>, Fault> {
         if part.first == 0 {
             self.actions.clear();
         }
@@ -121,7 +118,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
     }
 }
 
-fn in_order(held: usize, first: u8) -> Result<(), Fault> {
+pub(super) fn in_order(held: usize, first: u8) -> Result<(), Fault> {
     if held == usize::from(first) {
         Ok(())
     } else {

@@ -14,7 +14,7 @@ pub use crate::protocol::message::Statistics;
 
 use crate::protocol::link::{Counters, Link, Received};
 use crate::protocol::message::{
-    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, Message, RobotState,
+    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, RobotState, ToHost, ToUnit,
 };
 use crate::protocol::stuffing::Outbox;
 use crate::protocol::{SCHEMA, VERSION};
@@ -113,10 +113,17 @@ impl<
     /// Takes bytes from the host link, in pieces of any size.
     pub fn receive(&mut self, now: Micros, bytes: &[u8]) {
         for &byte in bytes {
-            if let Some(Received { message, .. }) = self.link.receive(byte) {
-                self.heard = now;
-                self.take(now, message);
-            }
+            self.take_byte(now, byte);
+            self.settle(now);
+        }
+    }
+
+    /// A message at a time is on the stack, and only here.
+    #[inline(never)]
+    fn take_byte(&mut self, now: Micros, byte: u8) {
+        if let Some(Received { message, .. }) = self.link.receive(byte) {
+            self.heard = now;
+            self.take(now, &message);
         }
     }
 
@@ -133,12 +140,10 @@ impl<
             self.fault(Fault::HostLost);
             return;
         }
-        if self.pairing.is_due(now) {
-            self.decide_pending(now);
-        }
+        self.settle(now);
         if now >= self.beat {
             self.beat = now.after(HEARTBEAT);
-            self.send(&Message::Heartbeat(Heartbeat {
+            self.send(&ToHost::Heartbeat(Heartbeat {
                 now,
                 vocabulary: self.loading.vocabulary().map_or(0, |v| v.fingerprint()),
                 scene: self.loading.scene().map_or(0, |s| s.version()),
@@ -178,17 +183,17 @@ impl<
         }
     }
 
-    fn send(&mut self, message: &Message<N, C, F, W>) {
+    fn send(&mut self, message: &ToHost<N, C>) {
         self.link.send(message, &mut self.outbox);
     }
 
     fn fault(&mut self, fault: Fault) {
         self.statistics.faults = self.statistics.faults.saturating_add(1);
-        self.send(&Message::Fault(fault));
+        self.send(&ToHost::Fault(fault));
     }
 
-    fn take(&mut self, now: Micros, message: Message<N, C, F, W>) {
-        if let Message::Hello(host) = message {
+    fn take(&mut self, now: Micros, message: &ToUnit<N, C, F>) {
+        if let ToUnit::Hello(host) = message {
             self.greet(now, host);
             return;
         }
@@ -199,29 +204,22 @@ impl<
             return;
         }
         let result = match message {
-            Message::Hello(_) | Message::Heartbeat(_) => Ok(()),
-            Message::Vocabulary(part) => self.loading.take_vocabulary(&part).map(|done| {
+            ToUnit::Hello(_) | ToUnit::Heartbeat(_) => Ok(()),
+            ToUnit::Vocabulary(part) => self.loading.take_vocabulary(part).map(|done| {
                 self.pairing.clear();
                 self.loaded(done);
             }),
-            Message::Scene(part) => self.loading.take_scene(&part).map(|done| self.loaded(done)),
-            Message::Configure(configuration) => self.configure(configuration),
-            Message::Sentence(sentence) => self.observe(now, sentence),
-            Message::Answer(answer) => self.answer(now, answer),
-            Message::Robot(status) => {
+            ToUnit::Scene(part) => self.loading.take_scene(part).map(|done| self.loaded(done)),
+            ToUnit::Configure(configuration) => self.configure(configuration),
+            ToUnit::Sentence(part) => self.pairing.take(part),
+            ToUnit::Robot(status) => {
                 self.moving = matches!(status.state, RobotState::Running(_));
                 Ok(())
             }
-            Message::AskStatistics => {
-                self.send(&Message::Statistics(self.statistics()));
+            ToUnit::AskStatistics => {
+                self.send(&ToHost::Statistics(self.statistics()));
                 Ok(())
             }
-            Message::Loaded(_)
-            | Message::Decision(_)
-            | Message::Why(_)
-            | Message::WhyActions(_)
-            | Message::Fault(_)
-            | Message::Statistics(_) => Err(Fault::NotForUnit),
         };
         if let Err(fault) = result {
             self.fault(fault);
@@ -229,7 +227,7 @@ impl<
     }
 
     /// Opens a conversation: everything of an earlier one is forgotten.
-    fn greet(&mut self, now: Micros, host: Hello) {
+    fn greet(&mut self, now: Micros, host: &Hello) {
         self.outbox.clear();
         self.loading = Loading::new();
         self.pairing.clear();
@@ -247,7 +245,7 @@ impl<
     }
 
     fn introduce(&mut self) {
-        self.send(&Message::Hello(Hello {
+        self.send(&ToHost::Hello(Hello {
             version: VERSION,
             schema: SCHEMA,
             boot: self.boot,
@@ -255,19 +253,19 @@ impl<
         }));
     }
 
-    fn configure(&mut self, configuration: Configuration) -> Result<(), Fault> {
+    fn configure(&mut self, configuration: &Configuration) -> Result<(), Fault> {
         configuration
             .profile
             .check()
             .map_err(Fault::Configuration)?;
-        self.configuration = configuration;
+        self.configuration = *configuration;
         self.loaded(Some(Loaded::Configuration));
         Ok(())
     }
 
     fn loaded(&mut self, what: Option<Loaded>) {
         if let Some(what) = what {
-            self.send(&Message::Loaded(what));
+            self.send(&ToHost::Loaded(what));
         }
     }
 }

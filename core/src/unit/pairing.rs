@@ -4,11 +4,12 @@
 use heapless::Vec;
 
 use super::Unit;
+use super::loading::in_order;
 use crate::category::Category;
 use crate::decide::{Decision, Outcome};
 use crate::fuse::{Situation, fuse, says_clearly};
 use crate::intent::Intent;
-use crate::protocol::message::{Answer, Decided, Fault, Message, Why, WhyActions};
+use crate::protocol::message::{Decided, Fault, SentencePart, ToHost, Why, WhyActions};
 use crate::sentence::{Observations, Sentence};
 use crate::time::Micros;
 
@@ -22,7 +23,11 @@ pub const QUESTION: Micros = Micros::from_millis(60_000);
 #[derive(Debug)]
 pub struct Pairing<const N: usize, const C: usize, const W: usize> {
     observations: Observations<W, C, N>,
-    modalities: u8,
+    /// The sentence that is arriving, and which decision's question it answers.
+    arriving: Sentence<W, C, N>,
+    answers: Option<u32>,
+    /// Whether all of it has arrived and nobody has looked at it yet.
+    complete: bool,
     due: Micros,
     /// The decision that asked, and until when its answer is taken.
     question: Option<(u32, Micros)>,
@@ -41,7 +46,9 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
     pub const fn new() -> Self {
         Self {
             observations: Observations::new(),
-            modalities: 0,
+            arriving: Sentence::new(0),
+            answers: None,
+            complete: false,
             due: Micros::NEVER,
             question: None,
             numbered: 0,
@@ -51,7 +58,6 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
     /// Forgets what waits; decisions keep being numbered on.
     pub fn clear(&mut self) {
         self.observations.clear();
-        self.modalities = 0;
         self.due = Micros::NEVER;
         self.question = None;
     }
@@ -68,21 +74,31 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
         now >= self.due
     }
 
-    fn has(&self, modality: u8) -> bool {
-        self.modalities & bit(modality) != 0
-    }
-
-    fn insert(&mut self, sentence: Sentence<W, C, N>) -> Result<(), Fault> {
-        let modality = sentence.modality();
-        let inserted = self.observations.insert(sentence);
-        inserted.map_err(|error| Fault::Sentence { modality, error })?;
-        self.modalities |= bit(modality);
+    /// Takes a part of a sentence, the last of which completes it.
+    ///
+    /// # Errors
+    /// [`Fault`] when the part is out of order or there is no room; from the first part on the
+    /// sentence can be said again.
+    pub(super) fn take(&mut self, part: &SentencePart<C, N>) -> Result<(), Fault> {
+        let modality = part.modality;
+        if part.first == 0 {
+            self.arriving.restart(modality);
+            self.answers = part.answers;
+        }
+        if modality != self.arriving.modality() || part.answers != self.answers {
+            return Err(Fault::PartOutOfOrder {
+                expected: 0,
+                got: part.first,
+            });
+        }
+        in_order(self.arriving.words().len(), part.first)?;
+        for word in &part.words {
+            let pushed = self.arriving.push(word.clone());
+            pushed.map_err(|error| Fault::Sentence { modality, error })?;
+        }
+        self.complete = self.arriving.words().len() >= usize::from(part.total);
         Ok(())
     }
-}
-
-fn bit(modality: u8) -> u8 {
-    1_u8.checked_shl(u32::from(modality)).unwrap_or(0)
 }
 
 impl<
@@ -95,21 +111,34 @@ impl<
     const OUT: usize,
 > Unit<N, C, F, E, W, FRAME, OUT>
 {
-    /// Takes a sentence: decides at once when it was the last one expected or a clear stop, waits
-    /// for others otherwise.
-    pub(super) fn observe(
-        &mut self,
-        now: Micros,
-        sentence: Sentence<W, C, N>,
-    ) -> Result<(), Fault> {
+    /// Looks at a sentence that has just been completed, and decides when it is time. Called when
+    /// the message that completed it is out of the way, so that the stack holds one of the two.
+    pub(super) fn settle(&mut self, now: Micros) {
+        if core::mem::take(&mut self.pairing.complete) {
+            let looked_at = match self.pairing.answers {
+                None => self.observe(now),
+                Some(decision) => self.answer(now, decision),
+            };
+            if let Err(fault) = looked_at {
+                self.fault(fault);
+            }
+        }
+        if self.pairing.is_due(now) {
+            self.decide_pending(now);
+        }
+    }
+
+    /// Looks at the sentence that has arrived: a clear stop is told at once, the last one expected
+    /// makes the decision due, any other waits.
+    fn observe(&mut self, now: Micros) -> Result<(), Fault> {
         let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
-        let modality = sentence.modality();
-        sentence
-            .check(vocabulary)
-            .map_err(|error| Fault::Sentence { modality, error })?;
+        let arrived = &self.pairing.arriving;
+        let modality = arrived.modality();
+        let refused = |error| Fault::Sentence { modality, error };
+        arrived.check(vocabulary).map_err(refused)?;
         if let Some(stop) = vocabulary
             .stop()
-            .filter(|stop| self.is_stop(&sentence, *stop))
+            .filter(|stop| self.is_stop(arrived, *stop))
         {
             self.stop(stop, modality);
             return Ok(());
@@ -118,49 +147,52 @@ impl<
         if self.pairing.question.take().is_some() {
             // A new command instead of an answer.
             self.pairing.clear();
-        } else if self.pairing.has(modality) {
+        } else if self.pairing.observations.get(modality).is_some() {
             // The same modality speaks again: what waited was a command of its own.
             self.decide_pending(now);
             self.pairing.clear();
         }
-        self.pairing.insert(sentence)?;
-        if self.pairing.due == Micros::NEVER {
-            self.pairing.due = now.after(self.configuration.window);
+        let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
+        let Pairing {
+            observations,
+            arriving,
+            due,
+            ..
+        } = &mut self.pairing;
+        observations
+            .insert(&*arriving, vocabulary)
+            .map_err(refused)?;
+        if *due == Micros::NEVER {
+            *due = now.after(self.configuration.window);
         }
         let expected = self.configuration.expected;
-        if self.pairing.modalities & expected == expected {
-            self.decide_pending(now);
+        if observations.modalities() & expected == expected {
+            *due = now;
         }
         Ok(())
     }
 
-    /// Takes an answer: what it says is fused, as one more modality, with what it was asked about.
-    pub(super) fn answer(&mut self, now: Micros, answer: Answer<W, C, N>) -> Result<(), Fault> {
+    /// Looks at the answer that has arrived: what it says is fused, as one more modality, with what
+    /// it was asked about and with the answers before it.
+    fn answer(&mut self, now: Micros, decision: u32) -> Result<(), Fault> {
         let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
-        let decision = answer.decision;
-        match self.pairing.question {
+        let Pairing {
+            observations,
+            arriving,
+            due,
+            question,
+            ..
+        } = &mut self.pairing;
+        match *question {
             Some((asked, until)) if asked == decision && now < until => {}
             _ => return Err(Fault::NoQuestion { decision }),
         }
-        let given = &answer.sentence;
-        given.check(vocabulary).map_err(|error| Fault::Sentence {
+        let appended = observations.append(ANSWER, arriving, vocabulary);
+        appended.map_err(|error| Fault::Sentence {
             modality: ANSWER,
             error,
         })?;
-        let mut all = Sentence::new(ANSWER);
-        let before = self
-            .pairing
-            .observations
-            .get(ANSWER)
-            .map_or(&[][..], Sentence::words);
-        for word in before.iter().chain(given.words()) {
-            all.push(word.clone()).map_err(|error| Fault::Sentence {
-                modality: ANSWER,
-                error,
-            })?;
-        }
-        self.pairing.insert(all)?;
-        self.decide_pending(now);
+        *due = now;
         Ok(())
     }
 
@@ -182,16 +214,19 @@ impl<
             parameters: Vec::new(),
         };
         self.pairing.clear();
-        self.pairing.modalities = bit(modality);
-        self.announce(Decision {
-            outcome: Outcome::Execute(intent.clone()),
-            best: Some(intent),
-        });
-        self.pairing.clear();
+        let modalities = 1_u8.checked_shl(u32::from(modality)).unwrap_or(0);
+        self.announce(
+            modalities,
+            Decision {
+                outcome: Outcome::Execute(intent.clone()),
+                best: Some(intent),
+            },
+        );
     }
 
     /// Decides with what there is.
-    pub(super) fn decide_pending(&mut self, now: Micros) {
+    #[inline(never)]
+    fn decide_pending(&mut self, now: Micros) {
         let (Some(vocabulary), Some(scene)) = (self.loading.vocabulary(), self.loading.scene())
         else {
             self.pairing.clear();
@@ -207,11 +242,11 @@ impl<
         match decided {
             Err(error) => {
                 self.pairing.clear();
-                self.fault(Fault::Decision(error));
+                self.fault(Fault::Configuration(error));
             }
             Ok(decision) => {
                 let asks = matches!(decision.outcome, Outcome::Ask(_));
-                let number = self.announce(decision);
+                let number = self.announce(self.pairing.observations.modalities(), decision);
                 if self.configuration.explain {
                     self.explain(number);
                 }
@@ -224,7 +259,8 @@ impl<
         }
     }
 
-    fn announce(&mut self, decision: Decision<C>) -> u32 {
+    #[inline(never)]
+    fn announce(&mut self, modalities: u8, decision: Decision<C>) -> u32 {
         let counter = match decision.outcome {
             Outcome::Execute(_) => &mut self.statistics.executes,
             Outcome::Ask(_) => &mut self.statistics.asks,
@@ -233,16 +269,17 @@ impl<
         *counter = counter.saturating_add(1);
         self.pairing.numbered = self.pairing.numbered.wrapping_add(1);
         let number = self.pairing.numbered;
-        self.send(&Message::Decision(Decided {
+        self.send(&ToHost::Decision(Decided {
             number,
             vocabulary: self.loading.vocabulary().map_or(0, |v| v.fingerprint()),
             scene: self.loading.scene().map_or(0, |s| s.version()),
-            modalities: self.pairing.modalities,
+            modalities,
             decision,
         }));
         number
     }
 
+    #[inline(never)]
     fn explain(&mut self, number: u32) {
         let actions = self
             .trace
@@ -256,7 +293,7 @@ impl<
             beta: all(&self.trace.beta),
         };
         self.link
-            .send(&Message::<N, C, F, W>::WhyActions(why), &mut self.outbox);
+            .send(&ToHost::<N, C>::WhyActions(why), &mut self.outbox);
         for (q, word) in self.trace.categories().iter().enumerate() {
             let Some(category) = Category::from_index(q) else {
                 return;
@@ -274,8 +311,7 @@ impl<
                 threshold: word.threshold,
                 clear: word.judgement.clear,
             };
-            self.link
-                .send(&Message::<N, C, F, W>::Why(why), &mut self.outbox);
+            self.link.send(&ToHost::<N, C>::Why(why), &mut self.outbox);
         }
     }
 }

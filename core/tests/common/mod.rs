@@ -4,8 +4,8 @@
 use deictic_core::board::{Entity, Observations, Scene, Sentence, Trace, Vocabulary, Word};
 use deictic_core::category::{BitSet, Category};
 use deictic_core::decide::{Decision, Outcome};
-use deictic_core::fuse::{FuseError, Situation, fuse};
-use deictic_core::profile::Profile;
+use deictic_core::fuse::{Situation, fuse};
+use deictic_core::profile::{Profile, ProfileError};
 use deictic_core::vocabulary::{Action, Requirement, Signature};
 
 pub const MOVE_UP: u8 = 0;
@@ -145,7 +145,7 @@ pub fn command(modality: u8, action: u8, object: Option<u8>, storage: Option<u8>
     sentence(modality, &words)
 }
 
-pub fn decide(sentences: &[Sentence], profile: &Profile) -> Result<Decision<8>, FuseError> {
+pub fn decide(sentences: &[Sentence], profile: &Profile) -> Result<Decision<8>, ProfileError> {
     decide_in(&scene(), sentences, profile).0
 }
 
@@ -153,10 +153,10 @@ pub fn decide_in(
     scene: &Scene,
     sentences: &[Sentence],
     profile: &Profile,
-) -> (Result<Decision<8>, FuseError>, Trace) {
+) -> (Result<Decision<8>, ProfileError>, Trace) {
     let mut observations = Observations::new();
     for s in sentences {
-        observations.insert(s.clone()).unwrap();
+        observations.insert(s.clone(), &vocabulary()).unwrap();
     }
     let mut trace = Trace::new();
     let vocabulary = vocabulary();

@@ -5,7 +5,9 @@ use deictic_core::decide::Outcome;
 use super::printer::Printer;
 use crate::answering::{Reply, reply};
 use crate::language::{Listener, text_of};
+use crate::explain;
 use crate::robot::Event;
+use crate::sensor::Sensors;
 use crate::session::{Happening, Session};
 use crate::showing::showing;
 use crate::understanding::{self, Understood, mentions_stop};
@@ -29,6 +31,8 @@ pub struct Conversation<'a> {
     waiting: std::collections::VecDeque<String>,
     last: Ending,
     quits: bool,
+    /// What observes what is said and shown; without any it is observed as it was typed.
+    pub sensors: Option<Sensors<'a>>,
 }
 
 impl<'a> Conversation<'a> {
@@ -40,6 +44,7 @@ impl<'a> Conversation<'a> {
             waiting: std::collections::VecDeque::new(),
             last: Ending::Done,
             quits: false,
+            sensors: None,
         }
     }
 
@@ -144,14 +149,29 @@ impl<'a> Conversation<'a> {
             }
             Understood::Commands(sentences) => sentences,
         };
-        let mut said = said.into_iter();
-        for sentence in shown.into_iter().chain(said.next()) {
+        let observed: Result<Vec<_>, _> = match &mut self.sensors {
+            None => Ok(shown.iter().chain(&said).cloned().collect()),
+            Some(sensors) => {
+                let meant = shown.iter().chain(&said);
+                meant.map(|sentence| sensors.observe(sentence)).collect()
+            }
+        };
+        let mut observed = match observed {
+            Ok(observed) => observed.into_iter(),
+            Err(error) => {
+                let advice = explain::sentence_error(&error);
+                self.printer.not_understood(advice.what, advice.remedy);
+                return;
+            }
+        };
+        let first = usize::from(shown.is_some()) + usize::from(!said.is_empty());
+        for sentence in observed.by_ref().take(first) {
             if let Err(error) = session.observe(sentence) {
                 self.printer.not_understood(&error, AGAIN.into());
                 return;
             }
         }
-        session.queue(said);
+        session.queue(observed);
     }
 
     /// Keeps account of how commands end.

@@ -2,21 +2,21 @@
 
 use clap::Args;
 use deictic_core::decide::Outcome;
-use deictic_core::fuse::{Situation, fuse};
-use deictic_core::large::{Decision, Observations, Sentence, Trace};
+use deictic_core::large::{Decision, Intent, Sentence, Trace};
 use miette::Result;
 use serde::Serialize;
 
 use super::files::Files;
 use super::profile::Choice;
 use super::{advice, paint};
+use crate::deciding::{decide, heard};
 use crate::explain::reasons::Reasons;
 use crate::explain::{self, Advice};
 use crate::report::{self, DecisionReport};
 use crate::scene::Tabletop;
 use crate::sensor::{Noise, Sensors};
 use crate::showing::showing;
-use crate::understanding::{Understood, understand};
+use crate::understanding::{Understood, is_stop, understand};
 use crate::vocabulary::Lexicon;
 
 /// Decide what a sentence and a gesture mean, without a unit and without a robot.
@@ -103,32 +103,32 @@ impl Decide {
         sentences: impl Iterator<Item = Sentence>,
         mut sensors: Option<&mut Sensors<'_>>,
     ) -> Result<()> {
-        let mut observations = Observations::new();
+        let mut observed = Vec::new();
         for sentence in sentences {
-            let observed = match &mut sensors {
-                Some(sensors) => sensors.observe(&sentence),
-                None => Ok(sentence),
-            };
-            observed
-                .and_then(|sentence| observations.insert(sentence))
-                .map_err(|e| refused(explain::sentence_error(&e)))?;
+            observed.push(match &mut sensors {
+                Some(sensors) => sensors
+                    .observe(&sentence)
+                    .map_err(|e| refused(explain::sentence_error(&e)))?,
+                None => sentence,
+            });
         }
-        let situation = Situation {
-            vocabulary: lexicon.vocabulary(),
-            scene: table.scene(),
-            observations: &observations,
-        };
+        let (scene, profile) = (table.scene(), self.choice.profile());
         let mut trace = Box::new(Trace::new());
-        let decision = fuse(situation, &self.choice.profile(), &mut trace)
-            .map_err(|e| refused(explain::fuse_error(&e)))?;
+        let stop = observed.iter().find(|s| is_stop(s, lexicon, &profile));
+        let decision = match stop.and(lexicon.vocabulary().stop()) {
+            // As the unit does, whatever else was said or shown.
+            Some(action) => stop_now(action),
+            None => decide(&observed, scene, lexicon, &profile, &mut trace).map_err(refused)?,
+        };
+        let heard = heard(&observed, lexicon, &profile);
         let why = self.explain.then(|| Reasons::of_trace(&trace, lexicon));
         if self.json {
             print_json(&Line {
-                decision: report::decision(&decision, table.scene(), lexicon),
+                decision: report::decision(&decision, heard.as_ref(), scene, lexicon),
                 why,
             });
         } else {
-            anstream::println!("{}", in_words(&decision, table, lexicon));
+            anstream::println!("{}", in_words(&decision, heard.as_ref(), table, lexicon));
             if let Some(why) = why {
                 anstream::print!("{}", paint::dim(why));
             }
@@ -155,7 +155,23 @@ fn print_json(value: &impl Serialize) {
     }
 }
 
-fn in_words(decision: &Decision, table: &Tabletop, lexicon: &Lexicon) -> String {
+fn stop_now(action: u8) -> Decision {
+    let intent = Intent {
+        action,
+        ..Intent::default()
+    };
+    Decision {
+        outcome: Outcome::Execute(intent.clone()),
+        best: Some(intent),
+    }
+}
+
+fn in_words(
+    decision: &Decision,
+    heard: Option<&Intent>,
+    table: &Tabletop,
+    lexicon: &Lexicon,
+) -> String {
     match &decision.outcome {
         Outcome::Execute(intent) => {
             let what = explain::intent(intent, lexicon);
@@ -163,7 +179,7 @@ fn in_words(decision: &Decision, table: &Tabletop, lexicon: &Lexicon) -> String 
         }
         Outcome::Ask(question) => {
             let best = decision.best.as_ref();
-            let text = explain::question(question, best, table.scene(), lexicon);
+            let text = explain::question(question, best, heard, table.scene(), lexicon);
             format!("{}      {text}", paint::ask("ask"))
         }
         Outcome::Repeat => format!(

@@ -5,6 +5,7 @@ pub mod decide;
 mod files;
 mod lines;
 mod paint;
+pub mod play;
 mod printer;
 mod profile;
 pub mod run;

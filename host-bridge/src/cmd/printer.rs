@@ -17,6 +17,8 @@ use crate::vocabulary::Lexicon;
 pub struct Printer {
     /// JSON lines instead of text.
     pub json: bool,
+    /// All figures behind a decision instead of those that count.
+    pub full: bool,
 }
 
 impl Printer {
@@ -24,6 +26,13 @@ impl Printer {
     pub fn line(self, about: &str, text: impl std::fmt::Display) {
         if !self.json {
             anstream::println!("{} {text}", paint::dim(format!("{about:<8}")));
+        }
+    }
+
+    /// What comes now.
+    pub fn title(self, text: &str) {
+        if !self.json {
+            anstream::println!("\n{}", paint::good(text));
         }
     }
 
@@ -124,6 +133,7 @@ impl Printer {
                 number,
                 scene,
                 decision,
+                heard,
             } => {
                 let text = match &decision.outcome {
                     Outcome::Execute(intent) => paint::good(explain::intent(intent, lexicon)),
@@ -131,13 +141,18 @@ impl Printer {
                     Outcome::Repeat => paint::bad("nothing was understood; say and show it again"),
                 };
                 self.line("decided", text);
-                let report = report::decision(decision, table.scene(), lexicon);
+                let report = report::decision(decision, heard.as_ref(), table.scene(), lexicon);
                 self.object(&json!({
                     "event": "decided", "number": number, "scene": scene, "decision": report,
                 }));
             }
             Happening::Reasons(reasons) => {
-                for line in reasons.to_string().lines() {
+                let lines = if self.full {
+                    reasons.to_string().lines().map(str::to_owned).collect()
+                } else {
+                    reasons.brief()
+                };
+                for line in lines {
                     self.line("because", paint::dim(line));
                 }
                 self.object(&json!({ "event": "because", "why": reasons }));

@@ -19,6 +19,7 @@ use super::{advice, paint};
 use crate::language::Listener;
 use crate::link::{self, Address};
 use crate::robot::sim::Sim;
+use crate::sensor::{Noise, Sensors};
 use crate::session::Session;
 
 /// How long one turn waits for the unit: a typed stop is at the robot within this.
@@ -63,6 +64,12 @@ pub struct Run {
     /// round, in milliseconds
     #[arg(long, value_name = "MS", default_value_t = 1_000)]
     window: u64,
+    /// Observe what is said and shown through made-up sensors with this much noise
+    #[arg(long, value_enum, value_name = "LEVEL")]
+    noise: Option<Noise>,
+    /// What the noise starts from; the same seed makes the same noise
+    #[arg(long, default_value_t = 1, requires = "noise")]
+    seed: u64,
     /// Print why the unit decided as it did
     #[arg(long)]
     explain: bool,
@@ -98,9 +105,13 @@ impl Run {
         let opener = Box::new(move || link::open(&address));
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let interrupts = interrupts()?;
-        let printer = Printer { json: self.json };
+        let printer = Printer {
+            json: self.json,
+            full: true,
+        };
         printer.greet(&self.board, &session);
         let mut conversation = Conversation::new(&listener, printer);
+        conversation.sensors = self.noise.map(|n| Sensors::new(&lexicon, n, self.seed));
         let mut lines = None;
         if self.say.is_some() || self.show.is_some() {
             let (say, show) = (self.say.as_deref(), self.show.as_deref());

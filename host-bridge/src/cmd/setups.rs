@@ -238,7 +238,7 @@ fn decide_here(
     let refused = |what: explain::Advice| advice(what.what, what.remedy);
     let mut observations = Observations::new();
     for sentence in sentences {
-        let inserted = observations.insert(sentence.clone());
+        let inserted = observations.insert(sentence.clone(), lexicon.vocabulary());
         inserted.map_err(|e| refused(explain::sentence_error(&e)))?;
     }
     let situation = Situation {
@@ -251,7 +251,7 @@ fn decide_here(
         &configuration.profile,
         &mut Box::new(Trace::new()),
     )
-    .map_err(|e| refused(explain::fuse_error(&e)))
+    .map_err(|e| refused(explain::profile_error(&e)))
 }
 
 fn decide_there(unit: &mut GestureUnit, sentences: [Sentence; 2]) -> Result<Decision> {

@@ -1,10 +1,9 @@
 //! The core's errors in words. The core knows numbers only, so what it names by number is named by
 //! number here as well, counted from 1 as people count.
 
-use deictic_core::fuse::FuseError;
 use deictic_core::profile::ProfileError;
 use deictic_core::scene::SceneError;
-use deictic_core::sentence::{GESTURE, LANGUAGE, SentenceError};
+use deictic_core::sentence::SentenceError;
 use deictic_core::vocabulary::VocabularyError;
 
 use super::Advice;
@@ -163,22 +162,5 @@ pub fn profile_error(error: &ProfileError) -> Advice {
             "the fixed thresholds are not in order",
             "clear must be at least unclear, and unclear at least 0; the paper's are 0.25 and 0.11",
         ),
-    }
-}
-
-/// Why nothing could be decided.
-#[must_use]
-pub fn fuse_error(error: &FuseError) -> Advice {
-    match error {
-        FuseError::Profile(error) => profile_error(error),
-        FuseError::Sentence { modality, error } => {
-            let Advice { what, remedy } = sentence_error(error);
-            let who = match *modality {
-                GESTURE => "what was shown".to_owned(),
-                LANGUAGE => "what was said".to_owned(),
-                other => format!("modality {other}"),
-            };
-            Advice::new(format!("{who}: {what}"), remedy)
-        }
     }
 }

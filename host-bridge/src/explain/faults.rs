@@ -2,7 +2,7 @@
 
 use deictic_core::protocol::message::Fault;
 
-use super::{Advice, fuse_error, profile_error, scene_error, sentence_error, vocabulary_error};
+use super::{Advice, profile_error, scene_error, sentence_error, vocabulary_error};
 use crate::unit::{Distrust, Loss};
 
 /// What a unit did not take.
@@ -39,14 +39,9 @@ pub fn fault(fault: &Fault) -> Advice {
             )
         }
         Fault::Configuration(error) => profile_error(error),
-        Fault::Decision(error) => fuse_error(error),
         Fault::NoQuestion { decision } => Advice::new(
             format!("the question of decision {decision} is not open any more"),
             "say the whole command again",
-        ),
-        Fault::NotForUnit => Advice::new(
-            "the unit heard a message that only units send",
-            "look for two units on one link, or one whose output is looped back",
         ),
         Fault::HostLost => Advice::new(
             "the unit did not hear the bridge for two seconds and has forgotten what was waiting",

@@ -6,7 +6,7 @@ mod faults;
 mod question;
 pub mod reasons;
 
-pub use errors::{fuse_error, profile_error, scene_error, sentence_error, vocabulary_error};
+pub use errors::{profile_error, scene_error, sentence_error, vocabulary_error};
 pub use faults::{distrust, fault, loss};
 pub use question::{because, intent, question};
 

@@ -33,12 +33,14 @@ fn amount(category: Category, quantity: f32) -> String {
     }
 }
 
-/// The question to put to the person. `best` is the likeliest intent, `scene` what the decision was
+/// The question to put to the person. `best` is the likeliest intent, `heard` what was heard before
+/// anything was held against the scene ([`crate::deciding::heard`]), `scene` what the decision was
 /// made on.
 #[must_use]
 pub fn question(
     question: &Question,
     best: Option<&large::Intent>,
+    heard: Option<&large::Intent>,
     scene: &large::Scene,
     lexicon: &Lexicon,
 ) -> String {
@@ -60,27 +62,30 @@ pub fn question(
     }
     let name = lexicon.category_name(category);
     let reason = question.reason;
-    // The question is about the action that was heard best, which the penalties may have replaced
-    // by another in the likeliest intent; then it goes unnamed here.
-    let action = best.map(|best| best.action).filter(|&action| {
+    // The question is about the likeliest intent, or about what was heard when the penalties have
+    // made another one likelier.
+    let about = [best, heard].into_iter().flatten().find(|intent| {
+        let action = intent.action;
         let known = lexicon.vocabulary().actions().get(usize::from(action));
         let takes = known.is_some_and(|a| a.signature.compulsory.contains(category.index()));
-        let unfit = |option| !because(scene, lexicon, action, category, option).is_empty();
-        let option = best.and_then(|best| best.option(category));
-        takes && (reason != Reason::Infeasible || option.is_some_and(unfit))
+        takes
+            && (reason != Reason::Infeasible
+                || intent.option(category).is_some_and(|option| {
+                    !because(scene, lexicon, action, category, option).is_empty()
+                }))
     });
-    let called = action.map(|action| lexicon.option_name(Category::ACTION, action));
-    let meant = best.and_then(|best| best.option(category));
+    let called = about.map(|intent| lexicon.option_name(Category::ACTION, intent.action));
+    let meant = about.or(best).and_then(|intent| intent.option(category));
     let first = match (reason, meant) {
         (Reason::NotInScene, Some(option)) => {
             format!("I see no {} here. ", lexicon.option_name(category, option))
         }
         (Reason::Infeasible, Some(option)) => {
             let thing = lexicon.option_name(category, option);
-            match (&called, action) {
-                (Some(called), Some(action)) => {
-                    let why = because(scene, lexicon, action, category, option).join(", ");
-                    format!("I cannot {called} with the {thing}: {why}. ")
+            match (&called, about) {
+                (Some(called), Some(intent)) => {
+                    let why = because(scene, lexicon, intent.action, category, option);
+                    format!("The {thing} does not do for {called}: {}. ", why.join(", "))
                 }
                 _ => format!("That cannot be done with the {thing}. "),
             }
@@ -94,7 +99,7 @@ pub fn question(
         Reason::Missing | Reason::NotInScene | Reason::Infeasible
     );
     match (among, &question.candidates[..]) {
-        (Some(only), [_]) => format!("{first}Shall it be the {only}{to}?"),
+        (Some(only), [_]) => format!("{first}Shall it be the {only}?"),
         (Some(among), _) => format!("{first}Which {name}{to}: {among}?"),
         (None, _) if fit && category.is_entity() => {
             format!("{first}There is no {name} here that fits. What now?")
@@ -148,6 +153,7 @@ mod tests {
     use super::*;
     use crate::scene::SceneFile;
     use deictic_core::intent::Parameter;
+    use deictic_core::profile::Profile;
 
     fn asked(
         category: Category,
@@ -162,7 +168,7 @@ mod tests {
             action: lexicon.option(Category::ACTION, action).unwrap(),
             ..large::Intent::default()
         };
-        for option in object {
+        if let Some(option) = object {
             let (category, quantity) = (Category::OBJECT, None);
             let parameter = Parameter {
                 category,
@@ -176,7 +182,7 @@ mod tests {
             reason,
             candidates: candidates.iter().copied().collect(),
         };
-        question(&asked, Some(&best), table.scene(), &lexicon)
+        question(&asked, Some(&best), None, table.scene(), &lexicon)
     }
 
     #[test]
@@ -187,7 +193,7 @@ mod tests {
         let text = asked(O, Reason::Infeasible, &[0], "pick", Some(3));
         assert_eq!(
             text,
-            "I cannot pick with the box: it is glued. Shall it be the can for pick?"
+            "The box does not do for pick: it is glued. Shall it be the can?"
         );
         let text = asked(O, Reason::Infeasible, &[0, 1, 2], "unglue", Some(3));
         assert_eq!(
@@ -208,6 +214,28 @@ mod tests {
         assert_eq!(text, "pick or push?");
         let text = asked(Category::ACTION, Reason::NoneClear, &[3], "pick", None);
         assert_eq!(text, "Did you mean pick?");
+    }
+
+    #[test]
+    fn what_was_heard_is_named_when_something_else_has_become_likelier() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
+        let shown = crate::showing::showing("pick cleaner", &lexicon).unwrap();
+        let heard = crate::deciding::heard([&shown], &lexicon, &Profile::PAPER);
+        let asked = Question {
+            category: Category::OBJECT,
+            reason: Reason::Infeasible,
+            candidates: [0, 1].into_iter().collect(),
+        };
+        let release = large::Intent {
+            action: 1,
+            ..large::Intent::default()
+        };
+        let (best, scene) = (Some(&release), table.scene());
+        assert_eq!(
+            question(&asked, best, heard.as_ref(), scene, &lexicon),
+            "The cleaner does not do for pick: it is not reachable. Which object for pick: can or cup?"
+        );
     }
 
     #[test]

@@ -105,6 +105,33 @@ impl Reasons {
         self.penalties(figures.map(|((h, a), b)| (*h, *a, *b)), lexicon);
     }
 
+    /// The reasons in a line per category: the options that count, those that are clear with a star,
+    /// actions with what was heard of them and what alpha and beta left of it.
+    #[must_use]
+    pub fn brief(&self) -> Vec<String> {
+        let lines = self.words.iter().map(|word| {
+            let mut options: Vec<_> = word.options.iter().enumerate().collect();
+            let penalty = |i: usize| self.actions.get(i).filter(|_| word.of == Category::ACTION);
+            let weight = |i: usize, o: &Choice| penalty(i).map_or(o.merged, |p| p.heard);
+            options.sort_by(|a, b| weight(b.0, b.1).total_cmp(&weight(a.0, a.1)));
+            let counting = options
+                .into_iter()
+                .filter(|(i, o)| weight(*i, o) >= 0.05 || o.merged >= 0.05);
+            let told = counting.take(4).map(|(i, o)| {
+                let star = if o.clear { "*" } else { "" };
+                match penalty(i) {
+                    Some(p) => format!(
+                        "{} {:.2} x alpha {:.2} x beta {:.2} = {:.2}{star}",
+                        o.name, p.heard, p.alpha, p.beta, o.merged
+                    ),
+                    None => format!("{} {:.2}{star}", o.name, o.merged),
+                }
+            });
+            format!("{}: {}", word.category, told.collect::<Vec<_>>().join(", "))
+        });
+        lines.collect()
+    }
+
     fn penalties(&mut self, figures: impl Iterator<Item = (f32, f32, f32)>, lexicon: &Lexicon) {
         let names = lexicon.entries(Category::ACTION);
         self.actions = figures

@@ -3,9 +3,10 @@
 use std::io;
 use std::time::{Duration, Instant};
 
-use deictic_core::large::{self, Message, Scene, Vocabulary};
+use deictic_core::large::{self, Scene, Sentence, ToHost, ToUnit, Vocabulary};
 use deictic_core::protocol::message::{
-    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, PART, ScenePart, VocabularyPart,
+    ACTIONS_PART, Capacities, Configuration, ENTITIES_PART, Fault, Heartbeat, Hello, Loaded,
+    ScenePart, SentencePart, VocabularyPart, WORDS_PART,
 };
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
@@ -27,7 +28,7 @@ pub struct Conversation {
     began: Instant,
     heard_at: Instant,
     /// Messages that came while something else was waited for.
-    pending: Vec<(Message, u16)>,
+    pending: Vec<(ToHost, u16)>,
 }
 
 impl Conversation {
@@ -49,7 +50,7 @@ impl Conversation {
     }
 
     /// Says a message.
-    pub fn say(&mut self, message: &Message) -> Result<(), UnitError> {
+    pub fn say(&mut self, message: &ToUnit) -> Result<(), UnitError> {
         let mut out = Outbox::<8192>::new();
         if !self.link.send(message, &mut out) {
             return Err(UnitError::Broken(io::Error::other(
@@ -63,7 +64,7 @@ impl Conversation {
     pub fn beat(&mut self, vocabulary: &Vocabulary, scene: &Scene) -> Result<(), UnitError> {
         let now = Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX));
         let (vocabulary, scene) = (vocabulary.fingerprint(), scene.version());
-        self.say(&Message::Heartbeat(Heartbeat {
+        self.say(&ToUnit::Heartbeat(Heartbeat {
             now,
             vocabulary,
             scene,
@@ -71,7 +72,7 @@ impl Conversation {
     }
 
     /// What was heard, each with how many frames before it were lost, waiting up to `patience`.
-    pub fn hear(&mut self, patience: Duration) -> Result<Vec<(Message, u16)>, UnitError> {
+    pub fn hear(&mut self, patience: Duration) -> Result<Vec<(ToHost, u16)>, UnitError> {
         if !self.pending.is_empty() {
             return Ok(std::mem::take(&mut self.pending));
         }
@@ -111,7 +112,7 @@ impl Conversation {
             if !self.is_loaded(Loaded::Scene(scene.version()))? {
                 continue;
             }
-            self.say(&Message::Configure(*configuration))?;
+            self.say(&ToUnit::Configure(*configuration))?;
             if self.is_loaded(Loaded::Configuration)? {
                 return Ok(hello);
             }
@@ -130,11 +131,11 @@ impl Conversation {
         self.wire.write(&[0]).map_err(UnitError::Broken)?;
         let until = Instant::now() + PATIENCE;
         while Instant::now() < until {
-            self.say(&Message::Hello(ours))?;
+            self.say(&ToUnit::Hello(ours))?;
             let again = Instant::now() + AGAIN;
             while let Some(left) = again.checked_duration_since(Instant::now()) {
                 for (message, _) in self.hear(left)? {
-                    if let Message::Hello(theirs) = message {
+                    if let ToHost::Hello(theirs) = message {
                         let (unit, host) = ((theirs.version, theirs.schema), (VERSION, SCHEMA));
                         if unit != host {
                             return Err(UnitError::Schema { unit, host });
@@ -149,15 +150,36 @@ impl Conversation {
 
     fn say_vocabulary(&mut self, vocabulary: &Vocabulary) -> Result<(), UnitError> {
         let actions = vocabulary.actions();
-        for (i, part) in actions.chunks(PART).enumerate() {
-            self.say(&Message::Vocabulary(VocabularyPart {
+        for (i, part) in actions.chunks(ACTIONS_PART).enumerate() {
+            self.say(&ToUnit::Vocabulary(VocabularyPart {
                 fingerprint: vocabulary.fingerprint(),
                 parameters: vocabulary.options().iter().skip(1).copied().collect(),
                 features: small(vocabulary.features()),
                 stop: vocabulary.stop(),
                 total: small(actions.len()),
-                first: small(i * PART),
+                first: small(i * ACTIONS_PART),
                 actions: part.iter().copied().collect(),
+            }))?;
+        }
+        Ok(())
+    }
+
+    /// Says a sentence in as many parts as it needs; `answers` is the decision whose question it
+    /// answers, if it does.
+    pub fn tell(&mut self, sentence: &Sentence, answers: Option<u32>) -> Result<(), UnitError> {
+        let words = sentence.words();
+        for i in 0..words.len().div_ceil(WORDS_PART).max(1) {
+            self.say(&ToUnit::Sentence(SentencePart {
+                modality: sentence.modality(),
+                answers,
+                total: small(words.len()),
+                first: small(i * WORDS_PART),
+                words: words
+                    .iter()
+                    .skip(i * WORDS_PART)
+                    .take(WORDS_PART)
+                    .cloned()
+                    .collect(),
             }))?;
         }
         Ok(())
@@ -166,13 +188,18 @@ impl Conversation {
     /// Says a scene in as many parts as it needs.
     pub fn say_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
         let entities = scene.entities();
-        let parts = entities.len().div_ceil(PART).max(1);
+        let parts = entities.len().div_ceil(ENTITIES_PART).max(1);
         for i in 0..parts {
-            self.say(&Message::Scene(ScenePart {
+            self.say(&ToUnit::Scene(ScenePart {
                 version: scene.version(),
                 total: small(entities.len()),
-                first: small(i * PART),
-                entities: entities.iter().skip(i * PART).take(PART).cloned().collect(),
+                first: small(i * ENTITIES_PART),
+                entities: entities
+                    .iter()
+                    .skip(i * ENTITIES_PART)
+                    .take(ENTITIES_PART)
+                    .cloned()
+                    .collect(),
             }))?;
         }
         Ok(())
@@ -187,15 +214,15 @@ impl Conversation {
             let mut heard = self.hear(left.min(AGAIN))?.into_iter();
             while let Some((message, missed)) = heard.next() {
                 match message {
-                    Message::Loaded(loaded) if loaded == what => {
+                    ToHost::Loaded(loaded) if loaded == what => {
                         others.extend(heard);
                         self.pending = others;
                         return Ok(true);
                     }
-                    Message::Fault(fault) if refuses(&fault, what) => {
+                    ToHost::Fault(fault) if refuses(&fault, what) => {
                         return Err(UnitError::Refused(fault));
                     }
-                    Message::Hello(_) => return Ok(false),
+                    ToHost::Hello(_) => return Ok(false),
                     other => others.push((other, missed)),
                 }
             }

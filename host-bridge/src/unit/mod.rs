@@ -9,8 +9,8 @@ mod trust;
 
 use std::time::{Duration, Instant};
 
-use deictic_core::large::{Message, Scene, Sentence, Vocabulary};
-use deictic_core::protocol::message::{Answer, Configuration, Fault, Hello, Loaded, RobotStatus};
+use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
+use deictic_core::protocol::message::{Configuration, Fault, Hello, Loaded, RobotStatus};
 
 use crate::link::{Address, Wire, WireError, open};
 use conversation::Conversation;
@@ -124,7 +124,7 @@ impl GestureUnit {
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
     pub fn observe(&mut self, sentence: Sentence) -> Result<(), UnitError> {
-        self.with(|c| c.say(&Message::Sentence(sentence)))
+        self.with(|c| c.tell(&sentence, None))
     }
 
     /// Tells the unit what the person answered to the question of decision `decision`.
@@ -132,7 +132,7 @@ impl GestureUnit {
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
     pub fn answer(&mut self, decision: u32, sentence: Sentence) -> Result<(), UnitError> {
-        self.with(|c| c.say(&Message::Answer(Answer { decision, sentence })))
+        self.with(|c| c.tell(&sentence, Some(decision)))
     }
 
     /// Tells the unit how the robot fares.
@@ -140,7 +140,7 @@ impl GestureUnit {
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
     pub fn report(&mut self, status: RobotStatus) -> Result<(), UnitError> {
-        self.with(|c| c.say(&Message::Robot(status)))
+        self.with(|c| c.say(&ToUnit::Robot(status)))
     }
 
     /// Asks the unit what it has counted; the answer is an [`Event::Statistics`].
@@ -148,7 +148,7 @@ impl GestureUnit {
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
     pub fn ask_statistics(&mut self) -> Result<(), UnitError> {
-        self.with(|c| c.say(&Message::AskStatistics))
+        self.with(|c| c.say(&ToUnit::AskStatistics))
     }
 
     /// What has happened, waiting up to `patience` for the first of it. Call it often: it also shows
@@ -179,8 +179,8 @@ impl GestureUnit {
         let mut events = Vec::new();
         for (message, missed) in heard {
             let loss = match &message {
-                Message::Hello(_) => Some(Loss::Forgetful),
-                Message::Fault(fault) => loss_behind(fault),
+                ToHost::Hello(_) => Some(Loss::Forgetful),
+                ToHost::Fault(fault) => loss_behind(fault),
                 _ => None,
             };
             if let Some(loss) = loss {
@@ -195,23 +195,23 @@ impl GestureUnit {
         events
     }
 
-    fn event(&mut self, message: Message, missed: u16) -> Option<Event> {
+    fn event(&mut self, message: ToHost, missed: u16) -> Option<Event> {
         match message {
-            Message::Decision(decided) => {
+            ToHost::Decision(decided) => {
                 let trust = self.trust.judge(&decided, missed);
                 Some(Event::Decision {
                     decided: Box::new(decided),
                     trust,
                 })
             }
-            Message::Why(why) => Some(Event::Why(Box::new(why))),
-            Message::WhyActions(why) => Some(Event::WhyActions(Box::new(why))),
-            Message::Fault(fault) => Some(Event::Fault(fault)),
-            Message::Loaded(Loaded::Scene(version)) if version == self.scene.version() => {
+            ToHost::Why(why) => Some(Event::Why(Box::new(why))),
+            ToHost::WhyActions(why) => Some(Event::WhyActions(Box::new(why))),
+            ToHost::Fault(fault) => Some(Event::Fault(fault)),
+            ToHost::Loaded(Loaded::Scene(version)) if version == self.scene.version() => {
                 self.scene_due = None;
                 None
             }
-            Message::Statistics(statistics) => Some(Event::Statistics(statistics)),
+            ToHost::Statistics(statistics) => Some(Event::Statistics(statistics)),
             _ => None,
         }
     }

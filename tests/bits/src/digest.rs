@@ -2,7 +2,7 @@
 
 use deictic_core::board;
 use deictic_core::decide::Outcome;
-use deictic_core::fuse::FuseError;
+use deictic_core::profile::ProfileError;
 
 const PRIME: u64 = 0x0000_0100_0000_01b3;
 
@@ -56,7 +56,7 @@ impl Digest {
     }
 
     /// All of a decision.
-    pub fn decision(&mut self, decision: &Result<board::Decision, FuseError>) {
+    pub fn decision(&mut self, decision: &Result<board::Decision, ProfileError>) {
         let Ok(decision) = decision else {
             self.word(0xdead);
             return;

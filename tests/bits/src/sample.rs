@@ -235,7 +235,8 @@ fn say(
         // A board's sentence holds six words, more than there are categories here.
         let _ = sentence.push(word);
     }
-    let _ = observations.insert(sentence);
+    // What is made here fits the vocabulary it was made for.
+    let _ = observations.insert(sentence, vocabulary);
 }
 
 fn draw(likelihoods: &mut [f32], shape: Shape, random: &mut Random) {

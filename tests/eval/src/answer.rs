@@ -3,7 +3,7 @@
 use deictic_core::board;
 use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
-use deictic_core::fuse::{FuseError, fuse};
+use deictic_core::fuse::fuse;
 use deictic_core::intent::Intent;
 use deictic_core::profile::Profile;
 
@@ -50,7 +50,7 @@ impl Judge<'_> {
         prepared: &Prepared,
         profile: &Profile,
         trace: &mut board::Trace,
-    ) -> Result<Answer, FuseError> {
+    ) -> Result<Answer, deictic_core::profile::ProfileError> {
         let decision = fuse(prepared.with(self.vocabulary), profile, trace)?;
         Ok(match self.habits {
             ProfileName::Paper => {

@@ -65,7 +65,7 @@ impl Prepared {
                     .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))?;
             }
             observations
-                .insert(sentence)
+                .insert(sentence, vocabulary)
                 .map_err(|e| anyhow::anyhow!("the core refuses a sentence: {e:?}"))?;
         }
         Ok(Self {

@@ -5,6 +5,7 @@
 //! deictic::hand (people made up) ┴─> network ─> statics: score, table for core/src/gesture
 //! ```
 
+pub mod dynamics;
 pub mod hands;
 pub mod network;
 pub mod statics;

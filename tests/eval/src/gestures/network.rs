@@ -37,12 +37,12 @@ pub struct Recipe {
 impl Default for Recipe {
     fn default() -> Self {
         Self {
-            epochs: std::env::var("EP").map_or(60,|v|v.parse().unwrap()),
+            epochs: 60,
             batch: 128,
             rate: 4e-3,
-            decay: std::env::var("DE").map_or(2e-4,|v|v.parse().unwrap()),
-            noise: std::env::var("NO").map_or(0.03,|v|v.parse().unwrap()),
-            seed: 1,
+            decay: 2e-3,
+            noise: 0.03,
+            seed: 2,
         }
     }
 }
@@ -85,7 +85,7 @@ pub fn train(examples: &[Example], recipe: &Recipe) -> Network {
                 square[i] += 0.001 * (g * g - square[i]);
                 let w = &mut weights.0[i];
                 *w -= rate * (mean[i] / fade / ((square[i] / fade2).sqrt() + 1e-8));
-                *w -= rate * recipe.decay * *w * 10.0;
+                *w -= rate * recipe.decay * *w;
             }
         }
     }

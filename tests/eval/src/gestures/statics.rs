@@ -21,7 +21,7 @@ use super::network::{Example, Recipe, tempered, train};
 const PEOPLE: usize = 1_200;
 
 /// All recordings together count this many times as much as the made-up people of the shapes.
-fn rw()->f64{std::env::var("RW").map_or(2.0,|v|v.parse().unwrap())}
+const RECORDED_WEIGHT: f64 = 3.0;
 
 /// Parts of the recordings that judge each other's labels.
 const INNER_FOLDS: usize = 4;
@@ -74,7 +74,7 @@ fn examples(recorded: &[&Labelled], made_up: &[Labelled]) -> Vec<Example> {
         *lengths.entry(hand.recording).or_default() += 1.0;
     }
     let shown = made_up.iter().filter(|h| h.shape != Shape::None).count() as f64;
-    let each = rw() * shown / lengths.len().max(1) as f64;
+    let each = RECORDED_WEIGHT * shown / lengths.len().max(1) as f64;
     recorded
         .iter()
         .map(|h| example(h, each / lengths[&h.recording]))

@@ -1,4 +1,4 @@
-//! Computes `core/src/white_noise.rs`: `cargo run --release -p deictic-core --example white_noise`.
+//! Computes `core/src/tables.rs`: `cargo run --release -p deictic-core --example tables`.
 //!
 //! The mean normalised entropy of N independent uniform numbers is N E[phi(u / (u + T))] / ln N with
 //! phi(p) = -p ln p, u uniform on 0..1 and T the sum of N - 1 such numbers. Both are put on the
@@ -46,17 +46,42 @@ fn convolve_with_box(of: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The table as Rust source.
+/// Entry `n` of the table of 1 / ln n for `n` from 0 to `last`; 0 below two options.
+pub fn inverse_logarithms(last: usize) -> Vec<f64> {
+    (0..=last)
+        .map(|n| if n < 2 { 0.0 } else { 1.0 / (n as f64).ln() })
+        .collect()
+}
+
+/// Both tables as Rust source.
 pub fn source() -> String {
     let mut out = String::from(
-        "//! Made by `examples/white_noise.rs`, checked by `tests/white_noise.rs`: do not edit.\n\n\
-         /// Mean normalised entropy of N independent uniform numbers, at index N (METHOD, section 4).\n\
-         pub const MEAN_ENTROPY: [f32; 65] = [\n",
+        "//! By number of options. Made by `examples/tables.rs`, checked by `tests/tables.rs`: do not edit.\n",
     );
-    for value in mean_entropies(64) {
-        writeln!(out, "    {value:.6},").expect("writing to a string");
-    }
-    out.push_str("];\n");
+    let mut table = |doc: &str, name: &str, digits: usize, values: Vec<f64>| {
+        write!(
+            out,
+            "\n/// {doc}, at index N.\npub const {name}: [f32; {}] = [",
+            values.len()
+        )
+        .expect("writing to a string");
+        for value in values {
+            write!(out, "{value:.digits$}, ").expect("writing to a string");
+        }
+        out.push_str("];\n");
+    };
+    table(
+        "Mean normalised entropy of N independent uniform numbers (METHOD, section 4)",
+        "MEAN_ENTROPY",
+        6,
+        mean_entropies(64),
+    );
+    table(
+        "1 / ln N, which scales entropies to 0..=1",
+        "INVERSE_LN",
+        9,
+        inverse_logarithms(64),
+    );
     out
 }
 

@@ -1,9 +1,10 @@
-//! The committed white-noise table is what its generator computes, and what drawing numbers gives.
+//! The committed tables are what their generator computes, and white noise what drawing numbers gives.
 
-#[path = "../examples/white_noise.rs"]
+#[path = "../examples/tables.rs"]
 mod generator;
 
 use deictic_core::entropy::{diagonal_cross_entropy, white_noise};
+use deictic_core::tables::INVERSE_LN;
 
 #[test]
 fn the_table_is_the_generators() {
@@ -13,6 +14,13 @@ fn the_table_is_the_generators() {
             (table - value).abs() < 2e-6,
             "N = {n}: {table} in the table, {value} computed"
         );
+    }
+}
+
+#[test]
+fn inverse_logarithms_are_the_generators_to_the_bit() {
+    for (n, value) in generator::inverse_logarithms(64).into_iter().enumerate() {
+        assert_eq!(INVERSE_LN[n].to_bits(), (value as f32).to_bits(), "N = {n}");
     }
 }
 

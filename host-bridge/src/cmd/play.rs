@@ -1,0 +1,222 @@
+//! `deictic play`: a script of commands on a unit, with a robot that does them.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use deictic_core::decide::Outcome;
+use deictic_core::protocol::message::Configuration;
+use deictic_core::time::Micros;
+use miette::Result;
+use serde::Serialize;
+use serde_json::json;
+
+use super::conversation::Conversation;
+use super::files::Files;
+use super::printer::Printer;
+use super::profile::Choice;
+use super::{advice, paint};
+use crate::explain;
+use crate::language::Listener;
+use crate::link::{self, Address};
+use crate::robot::Event;
+use crate::robot::sim::Sim;
+use crate::script::{Script, Turn};
+use crate::sensor::Sensors;
+use crate::session::{Happening, Session};
+
+/// Play a script of commands: what was said and shown, what the unit decided and why, what the robot
+/// did
+#[derive(Args, Clone, Debug)]
+pub struct Play {
+    /// The script (TOML); without it the tabletop session that comes with the program
+    script: Option<PathBuf>,
+    /// The unit: serial:PORT[@BAUD], tcp:HOST:PORT, qemu, or inside for none at all
+    #[arg(long, value_name = "ADDRESS", default_value = "inside")]
+    board: Address,
+    /// How many times as fast as a careful arm the simulated one moves
+    #[arg(long, default_value_t = 8.0)]
+    haste: f32,
+    #[command(flatten)]
+    files: Files,
+    #[command(flatten)]
+    choice: Choice,
+    /// Print all figures behind a decision, not only those that count
+    #[arg(long)]
+    explain: bool,
+    /// Print JSON lines, for programs
+    #[arg(long)]
+    json: bool,
+}
+
+/// A row of the summary.
+#[derive(Debug, Default, Serialize)]
+struct Row {
+    kind: String,
+    said: String,
+    shown: String,
+    decided: Vec<String>,
+    robot: String,
+}
+
+impl Play {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// A report with what was wrong and what to do.
+    pub fn run(self) -> Result<()> {
+        let (lexicon, table) = self.files.read()?;
+        let script = match &self.script {
+            Some(path) => Script::read(path)?,
+            None => Script::demo()?,
+        };
+        let listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        let configuration = Configuration {
+            profile: self.choice.profile(),
+            // Nobody has to find the time to point: what is shown comes with what is said.
+            window: Micros::from_millis(300),
+            explain: true,
+            ..Configuration::DEFAULT
+        };
+        let address = self.board.clone();
+        let opener = Box::new(move || link::open(&address));
+        let robot = Box::new(Sim::new(self.haste));
+        let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
+        let printer = Printer {
+            json: self.json,
+            full: self.explain,
+        };
+        printer.greet(&self.board, &session);
+        let mut conversation = Conversation::new(&listener, printer);
+        let mut rows = Vec::new();
+        for (i, turn) in script.turns.iter().enumerate() {
+            let (number, of) = (i + 1, script.turns.len());
+            printer.title(&format!("{number}/{of} {}: {}", turn.kind, turn.note));
+            printer.object(&json!({
+                "event": "turn", "number": number, "of": of, "kind": turn.kind, "note": turn.note,
+            }));
+            conversation.sensors = turn
+                .noise
+                .map(|noise| Sensors::new(&lexicon, noise, turn.seed));
+            rows.push(play(turn, &mut session, &mut conversation, printer)?);
+        }
+        printer.object(&json!({ "event": "summary", "rows": rows }));
+        if !self.json {
+            summarise(&rows);
+        }
+        Ok(())
+    }
+}
+
+/// Plays one command to its end.
+fn play(
+    turn: &Turn,
+    session: &mut Session<'_>,
+    conversation: &mut Conversation<'_>,
+    printer: Printer,
+) -> Result<Row> {
+    let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
+    let noise = turn.noise.map(|noise| format!(" ({noise:?})"));
+    let mut row = Row {
+        kind: turn.kind.clone() + &noise.unwrap_or_default().to_lowercase(),
+        said: text(&turn.said),
+        shown: text(&turn.shown),
+        robot: "stands still".to_owned(),
+        ..Row::default()
+    };
+    conversation.take(session, turn.said.as_deref(), turn.shown.as_deref());
+    let mut answer = turn.answer.as_deref();
+    loop {
+        for happening in session.turn(Duration::from_millis(10)) {
+            printer.happening(&happening, session.table(), session.lexicon());
+            row.take(&happening, session);
+            match happening {
+                Happening::Lost(loss) => {
+                    let lost = explain::loss(&loss);
+                    return Err(advice(lost.what, lost.remedy));
+                }
+                Happening::Robot(Event::Begun { number, .. }) if turn.stop_at == Some(number) => {
+                    printer.heard(Some("stop"), None);
+                    conversation.line(session, b"stop");
+                }
+                _ => {}
+            }
+        }
+        if !session.is_idle() {
+            continue;
+        }
+        let asked = session.question().is_some();
+        match answer.take() {
+            Some(answer) if asked => {
+                // An answer is clear: nobody gives one in a noisy room without being heard.
+                conversation.sensors = None;
+                conversation.take(session, Some(answer), None);
+            }
+            _ => {
+                if asked {
+                    session.stop();
+                }
+                return Ok(row);
+            }
+        }
+    }
+}
+
+impl Row {
+    fn take(&mut self, happening: &Happening, session: &Session<'_>) {
+        match happening {
+            Happening::Decided { decision, .. } => self.decided.push(match &decision.outcome {
+                Outcome::Execute(intent) => explain::intent(intent, session.lexicon()),
+                Outcome::Ask(question) => {
+                    format!("asks which {}", session.lexicon().category_name(question.category))
+                }
+                Outcome::Repeat => "asks to repeat".to_owned(),
+            }),
+            Happening::Distrusted(_) | Happening::Fault(_) | Happening::NoDecision => {
+                self.robot = "stands still".to_owned();
+            }
+            Happening::Refused { refusal, .. } => self.robot = format!("refuses: {refusal}"),
+            Happening::Robot(Event::Done(_)) if !self.robot.starts_with("stopped") => {
+                self.robot = "done".to_owned();
+            }
+            Happening::Robot(Event::Stopped { step, .. }) => self.robot = format!("stopped: {step}"),
+            Happening::Robot(Event::Failed { why, .. }) => self.robot = format!("failed: {why}"),
+            _ => {}
+        }
+    }
+}
+
+fn summarise(rows: &[Row]) {
+    let head = ["kind", "said", "shown", "decided", "robot"].map(str::to_owned);
+    let cells = rows.iter().map(|row| {
+        let decided = if row.decided.is_empty() {
+            "-".to_owned()
+        } else {
+            row.decided.join(", then ")
+        };
+        [&row.kind, &row.said, &row.shown, &decided, &row.robot].map(Clone::clone)
+    });
+    let lines: Vec<_> = std::iter::once(head).chain(cells).collect();
+    let mut widths = [0; 5];
+    for line in &lines {
+        for (width, cell) in widths.iter_mut().zip(line) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    anstream::println!();
+    for (i, line) in lines.iter().enumerate() {
+        let cells = line.iter().zip(widths);
+        let text: Vec<_> = cells.map(|(cell, width)| format!("{cell:<width$}")).collect();
+        let text = text.join("  ");
+        if i == 0 {
+            anstream::println!("{}", paint::good(text.trim_end()));
+        } else {
+            anstream::println!("{}", text.trim_end());
+        }
+    }
+    anstream::println!(
+        "\nTry next:\n  deictic run --board qemu               say and show it yourself\n  \
+         deictic decide --say \"pick the can\" --show \"pick|push can\" --explain\n  \
+         deictic play --explain                 all figures behind every decision"
+    );
+}
