@@ -60,14 +60,17 @@ impl Mapping {
     ///
     /// # Errors
     /// [`MappingError`]; nothing has changed then.
-    pub fn set(&mut self, gesture: Gesture, action: u8, actions: usize) -> Result<(), MappingError> {
+    pub fn set(
+        &mut self,
+        gesture: Gesture,
+        action: u8,
+        actions: usize,
+    ) -> Result<(), MappingError> {
         if usize::from(action) >= actions {
             return Err(MappingError::UnknownAction(action));
         }
         let place = match gesture {
-            Gesture::Shape(shape)
-                if shape == Shape::Grab as u8 || shape == Shape::Point as u8 =>
-            {
+            Gesture::Shape(shape) if shape == Shape::Grab as u8 || shape == Shape::Point as u8 => {
                 return Err(MappingError::Reserved(gesture));
             }
             Gesture::Shape(shape) => self.shapes.get_mut(usize::from(shape)),
@@ -105,13 +108,19 @@ mod tests {
     #[test]
     fn many_gestures_stand_for_one_action() {
         let mut mapping = Mapping::new();
-        mapping.set(Gesture::Shape(Shape::Five as u8), 1, 3).unwrap();
+        mapping
+            .set(Gesture::Shape(Shape::Five as u8), 1, 3)
+            .unwrap();
         mapping.set(Gesture::Stroke(2), 1, 3).unwrap();
         mapping.set(Gesture::Stroke(0), 2, 3).unwrap();
         assert_eq!(mapping.action(Gesture::Stroke(2)), Some(1));
         assert_eq!(mapping.action(Gesture::Stroke(1)), None);
         let mut actions = [0.0; 3];
-        mapping.share(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.25], &[0.5, 0.0, 0.25], &mut actions);
+        mapping.share(
+            &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.25],
+            &[0.5, 0.0, 0.25],
+            &mut actions,
+        );
         assert_eq!(actions, [0.0, 0.5, 0.5]);
     }
 
@@ -119,10 +128,26 @@ mod tests {
     fn what_cannot_stand_for_an_action_is_refused() {
         let mut mapping = Mapping::new();
         for (gesture, action, error) in [
-            (Gesture::Shape(0), 0, MappingError::Reserved(Gesture::Shape(0))),
-            (Gesture::Shape(2), 0, MappingError::Reserved(Gesture::Shape(2))),
-            (Gesture::Shape(8), 0, MappingError::UnknownGesture(Gesture::Shape(8))),
-            (Gesture::Stroke(24), 0, MappingError::UnknownGesture(Gesture::Stroke(24))),
+            (
+                Gesture::Shape(0),
+                0,
+                MappingError::Reserved(Gesture::Shape(0)),
+            ),
+            (
+                Gesture::Shape(2),
+                0,
+                MappingError::Reserved(Gesture::Shape(2)),
+            ),
+            (
+                Gesture::Shape(8),
+                0,
+                MappingError::UnknownGesture(Gesture::Shape(8)),
+            ),
+            (
+                Gesture::Stroke(24),
+                0,
+                MappingError::UnknownGesture(Gesture::Stroke(24)),
+            ),
             (Gesture::Stroke(0), 3, MappingError::UnknownAction(3)),
         ] {
             assert_eq!(mapping.set(gesture, action, 3), Err(error));

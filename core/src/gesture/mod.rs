@@ -1,11 +1,23 @@
 //! From a hand to a gesture sentence.
+//!
+//! ```text
+//! bytes -> wire -> Sample -> tracking -> shape -> evidence ─┬─> pointing ─┐
+//!                                     -> movement -> stroke ┴─────────────┴> word -> Sentence
+//! ```
+//!
+//! [`reader::HandReader`] runs all of it: one sample in, at most one [`reader::Event`] out.
 
 pub mod evidence;
 pub mod frame;
+pub mod mapping;
+pub mod movement;
 pub mod path;
 pub mod pointing;
+pub mod reader;
 pub mod shape;
 pub mod shape_table;
 pub mod stroke;
+pub mod tracking;
 pub mod vector;
 pub mod wire;
+pub mod word;

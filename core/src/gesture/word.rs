@@ -245,7 +245,8 @@ mod tests {
 
     #[test]
     fn a_thing_that_can_be_both_is_an_object_first_and_a_storage_then() {
-        let vocabulary = Vocabulary::<4, 4, 4>::new(&[Action::default()], &[2, 2], 0, None, 0).unwrap();
+        let vocabulary =
+            Vocabulary::<4, 4, 4>::new(&[Action::default()], &[2, 2], 0, None, 0).unwrap();
         let mut scene = Scene::<4, 4>::new(1);
         for (category, option, y) in [
             (Category::OBJECT, 1, 0.0),

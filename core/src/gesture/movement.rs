@@ -1,0 +1,113 @@
+//! From a palm that moves to strokes: where a movement begins and ends, and what it may be.
+
+use super::frame::HandFrame;
+use super::mapping::STROKES;
+use super::path::Path;
+use super::stroke::{Comparison, Likely, Scale, Template};
+use super::vector;
+use crate::time::Micros;
+
+/// A palm slower than this, mm/s, rests.
+const RESTING: f32 = 100.0;
+
+/// A movement that never gets faster than this, mm/s, is no gesture but a hand being moved.
+const GESTURING: f32 = 300.0;
+
+/// A palm that rests for this long has ended its movement; shorter rests are turning points.
+const PAUSE: Micros = Micros::from_millis(90);
+
+/// A movement that begins so soon after the hand has come is its coming.
+const ARRIVAL: Micros = Micros::from_millis(250);
+
+/// Movements longer than this are no gestures.
+const LONGEST: Micros = Micros::from_millis(4_000);
+
+/// Templates compared per frame: about 3,000 instructions each.
+const PER_FRAME: usize = 8;
+
+/// Follows a palm.
+#[derive(Debug)]
+pub struct Movement {
+    path: Path,
+    /// Whether it has been fast enough for a gesture.
+    fast: bool,
+    /// Since when it rests.
+    resting: Option<Micros>,
+    /// When the hand came.
+    came: Option<Micros>,
+    comparison: Option<Comparison<STROKES>>,
+}
+
+impl Default for Movement {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Movement {
+    /// A palm that has not moved.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            path: Path::new(),
+            fast: false,
+            resting: None,
+            came: None,
+            comparison: None,
+        }
+    }
+
+    /// The hand has left, in the middle of whatever it did.
+    pub fn clear(&mut self) {
+        *self = Self::new();
+    }
+
+    /// Takes one frame. Movements of a hand that may not gesture now (`free` is false), as it points
+    /// or is closed, are left out. Gives what a movement may have been some frames after its end.
+    pub fn follow(
+        &mut self,
+        clock: Micros,
+        frame: &HandFrame,
+        free: bool,
+        templates: &[Template],
+        scale: &Scale,
+    ) -> Option<Likely<STROKES>> {
+        let came = *self.came.get_or_insert(clock);
+        let speed = vector::length(frame.velocity);
+        if !free {
+            self.restart();
+        } else if speed > RESTING {
+            self.resting = None;
+            self.fast |= speed > GESTURING;
+            self.path.push(clock, frame.palm);
+        } else if !self.path.is_empty() {
+            let since = *self.resting.get_or_insert(clock);
+            if clock.since(since) >= PAUSE {
+                self.end(came);
+                return None;
+            }
+        }
+        let likely = self
+            .comparison
+            .as_mut()?
+            .step(templates, scale, PER_FRAME)?;
+        self.comparison = None;
+        Some(likely)
+    }
+
+    fn restart(&mut self) {
+        self.path.clear();
+        self.fast = false;
+        self.resting = None;
+    }
+
+    fn end(&mut self, came: Micros) {
+        let begun = self.path.begun();
+        let rested = self.resting.unwrap_or(begun);
+        let gesture = self.fast && begun.since(came) >= ARRIVAL && rested.since(begun) <= LONGEST;
+        if gesture && let Some(stroke) = self.path.stroke() {
+            self.comparison = Some(Comparison::new(stroke));
+        }
+        self.restart();
+    }
+}
