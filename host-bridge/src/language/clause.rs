@@ -3,7 +3,7 @@
 
 use super::pack::Role;
 use super::read::{Piece, What};
-use super::split::split;
+use super::split::{is_verb, split};
 use super::table::Table;
 
 /// How a clause follows the one before.
@@ -93,6 +93,9 @@ fn of_sentence(mut pieces: Vec<Piece>, mut asked: bool, table: &Table) -> Vec<Cl
         || !polite && (asked || first.is_some_and(|p| p.is(Role::RequestQuestion)));
     let conditional = pieces.iter().any(|p| p.is(Role::Condition) && !p.is_name());
     let mut list = split(pieces, table);
+    // "Once the cup is empty, push it" waits for what nobody checks.
+    let waits = |c: &Clause| matches!(c.link, Link::Earlier(_)) && mood(c, polite) == Mood::Told;
+    let conditional = conditional || list.iter().any(waits);
     let mut carried = None;
     for clause in &mut list {
         clause.mood = match () {
@@ -149,6 +152,13 @@ fn mood(clause: &Clause, polite: bool) -> Mood {
     };
     if place(&question).is_some() {
         return Mood::Question;
+    }
+    let noun = |pair: &[Piece]| match pair {
+        [before, word] => before.is(Role::Article) && is_verb(word) && !word.is_thing(),
+        _ => false,
+    };
+    if pieces.windows(2).any(noun) {
+        return Mood::Told;
     }
     let you = |p: &Piece| temporal && p.is(Role::You);
     let subject = place(&|p| p.is(Role::Subject) && !you(p));

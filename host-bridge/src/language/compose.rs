@@ -123,11 +123,20 @@ impl Composer<'_> {
                 .ok()
                 .and_then(|list| list.into_iter().next());
             if let Some(draft) = self.forbidden.clone() {
+                self.topic(&draft);
                 self.mention(&draft);
             }
         }
         self.plan.aside.push(SetAside { why, span });
         Ok(())
+    }
+
+    /// In "the cup, don't pick it" the cup is not for anything else.
+    fn topic(&mut self, forbidden: &Draft) {
+        let bare = |p: &Planned| p.draft.action.is_none();
+        if forbidden.action.is_some() && self.plan.commands.last().is_some_and(bare) {
+            self.withdraw(1);
+        }
     }
 
     fn withdraw(&mut self, count: usize) {
@@ -232,9 +241,18 @@ impl Composer<'_> {
                     span: last.span.clone(),
                 });
                 last.draft.amend(&new.draft);
+                last.draft.prune(self.lexicon);
                 last.span.end = new.span.end;
                 return;
             }
+        }
+        if link == Link::Or
+            && !fragment
+            && let (Some(new), Some(last)) = (planned.first(), self.plan.commands.last_mut())
+        {
+            last.draft.or(&new.draft);
+            last.span.end = new.span.end;
+            return;
         }
         match link {
             Link::Later(true) => {

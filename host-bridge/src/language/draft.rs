@@ -1,6 +1,9 @@
 //! A command as far as words tell it: its action and parameters with what was heard for each.
 
 use deictic_core::category::Category;
+use deictic_core::vocabulary::Action;
+
+use crate::vocabulary::Lexicon;
 
 /// One parameter of a command, or its action.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,5 +105,38 @@ impl Draft {
             self.others.retain(|s| s.category != slot.category);
             self.others.push(slot.clone());
         }
+    }
+
+    /// Leaves out what an action that took another's place has no use for: "push the cup, no, stop".
+    pub fn prune(&mut self, lexicon: &Lexicon) {
+        let actions = lexicon.vocabulary().actions();
+        let heard = self
+            .action
+            .iter()
+            .flat_map(|a| &a.heard)
+            .flat_map(|h| &h.options);
+        let named: Vec<_> = heard.filter_map(|&o| actions.get(usize::from(o))).collect();
+        let takes = |category: Category| {
+            let takes = |a: &&Action| {
+                let all = a.signature.compulsory.union(a.signature.voluntary);
+                all.contains(category.index())
+            };
+            named.is_empty() || named.iter().any(takes)
+        };
+        self.target.take_if(|_| !takes(Category::OBJECT));
+        self.storage.take_if(|_| !takes(Category::STORAGE));
+        self.others.retain(|s| takes(s.category));
+    }
+
+    /// This or another command, which one is left open.
+    pub fn or(&mut self, other: &Self) {
+        let join = |mine: &mut Option<Slot>, its: &Option<Slot>| match (mine, its) {
+            (Some(mine), Some(its)) => mine.heard.extend(its.heard.iter().cloned()),
+            (mine, Some(_)) => mine.clone_from(its),
+            _ => {}
+        };
+        join(&mut self.action, &other.action);
+        join(&mut self.target, &other.target);
+        join(&mut self.storage, &other.storage);
     }
 }

@@ -10,7 +10,7 @@ use super::table::{Meaning, Table};
 
 /// From this likeness on an unknown word is taken for a misheard one: "kup" and "cup" have 0.83,
 /// "drawr" and "drawer" 0.92, "spoon" and "stop" 0.4.
-const MISHEARD: f64 = 0.72;
+const MISHEARD: f64 = 0.7;
 
 /// Below this a known word is not worth proposing.
 const NEAR: f64 = 0.4;
@@ -96,13 +96,32 @@ impl Guesser {
     /// How alike each of `options` options of a category is to what was heard, 0..=1.
     #[must_use]
     pub fn likenesses(&self, heard: &str, category: Category, options: usize) -> Vec<f64> {
-        let heard = self.ear.listen(heard);
+        let sound = self.ear.listen(heard);
         let mut out = vec![0.0; options];
-        for (_, sound, c, option) in &self.names {
-            if let Some(best) = out.get_mut(usize::from(*option)).filter(|_| *c == category) {
-                *best = f64::max(*best, self.ear.likeness(&heard, sound));
+        for (words, known, c, option) in &self.names {
+            let place = out.get_mut(usize::from(*option));
+            if let Some(best) = place.filter(|_| *c == category) {
+                // "place in" and "place on" differ in the words in which they differ.
+                let likeness = match apart(heard, words) {
+                    Some((a, b)) => self.ear.likeness(&self.ear.listen(a), &self.ear.listen(b)),
+                    None => self.ear.likeness(&sound, known),
+                };
+                *best = f64::max(*best, likeness);
             }
         }
         out
     }
+}
+
+/// What is left of two phrases behind the words that they have in common at their start; `None` when
+/// there are none, or when one phrase is the start of the other.
+fn apart<'a>(a: &'a str, b: &'a str) -> Option<(&'a str, &'a str)> {
+    let mut rest = (a, b);
+    while let (Some((x, a)), Some((y, b))) = (rest.0.split_once(' '), rest.1.split_once(' ')) {
+        if x != y {
+            break;
+        }
+        rest = (a, b);
+    }
+    (rest != (a, b) && rest.0 != rest.1).then_some(rest)
 }

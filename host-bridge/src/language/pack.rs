@@ -62,6 +62,8 @@ pub enum Role {
     Chatter,
     /// "No": a correction, or a prohibition right before a verb.
     Refuse,
+    /// Stands before a noun: an action's word behind it is none.
+    Article,
     /// Tells more of the thing before it.
     Relative,
     /// The one spoken to, who may do what comes before or after.

@@ -30,7 +30,7 @@ fn opens(piece: &Piece) -> bool {
 }
 
 /// Names an action and is nothing that goes with one.
-fn is_verb(piece: &Piece) -> bool {
+pub(super) fn is_verb(piece: &Piece) -> bool {
     let with = [Role::Particle, Role::Place, Role::Storage, Role::Filler];
     piece.is_head()
         || piece.is_action()
@@ -62,11 +62,32 @@ impl Splitter<'_> {
         }
     }
 
-    /// Whether something was said that a "not" ahead of `rest` does not forbid: "the box, not the
-    /// cup", but "the box do not push".
+    /// Whether something was said that a "not" ahead of `rest` does not forbid: "pick the box, not
+    /// the cup", but "pick anything but the cup" and "the box do not push".
     fn begun(&self, rest: &[Piece]) -> bool {
-        let thing = |p: &Piece| p.is_thing() || p.is(Role::Pointed);
-        self.verb().is_some() || self.pieces.iter().any(thing) && !ahead_is_verb(rest)
+        let paused = self.pieces.last().is_some_and(|p| p.what == What::Comma);
+        let verb = self.verb().is_some();
+        match ahead_is_verb(rest) {
+            true => verb,
+            false => self.has_thing() || verb && paused,
+        }
+    }
+
+    fn has_thing(&self) -> bool {
+        self.pieces
+            .iter()
+            .any(|p| p.is_thing() || p.is(Role::Pointed))
+    }
+
+    /// Whether a "no" forbids what is next: "no picking", "no cup"; but "no, pick", "the box no the
+    /// cup". "No stop" stops, as that harms nobody.
+    fn refuses(&self, next: Option<&Piece>) -> bool {
+        let stops = |p: &Piece| p.is_action() && p.names(Category::ACTION).eq(self.table.stop);
+        next.is_some_and(|p| {
+            p.forms().next().is_some()
+                || is_verb(p) && !stops(p)
+                || p.is_thing() && !self.has_thing()
+        })
     }
 
     /// Whether a thing alone was denied, so that the right one comes next: "not the cup, the box".
@@ -113,27 +134,37 @@ pub(super) fn split(pieces: Vec<Piece>, table: &Table) -> Vec<Clause> {
     };
     for (i, piece) in pieces.iter().enumerate() {
         let rest = pieces.get(i + 1..).unwrap_or_default();
-        let next = rest.first();
-        let before_verb = next.is_some_and(|p| is_verb(p) || p.forms().next().is_some());
+        let not = || Piece {
+            what: What::Known(vec![Meaning::Role(Role::Not)]),
+            ..piece.clone()
+        };
         let separates =
             [Role::And, Role::Or].iter().any(|&r| piece.is(r)) || piece.what == What::Comma;
         if piece.is_name() && !separates {
             let verb = s.verb();
-            let again =
-                verb.is_some_and(|v| v.names(Category::ACTION).eq(piece.names(Category::ACTION)));
+            let again = !s.has_thing()
+                && verb
+                    .is_some_and(|v| v.names(Category::ACTION).eq(piece.names(Category::ACTION)));
             if is_verb(piece) && verb.is_some() && !again && !s.completes(piece) {
                 s.cut(Link::Comma);
             }
             s.pieces.push(piece.clone());
         } else if piece.is(Role::Retract) {
+            // "Never mind the cup" does not withdraw and then name a cup.
+            let about = rest
+                .iter()
+                .take_while(|p| p.what != What::Comma)
+                .any(Piece::is_thing);
             s.cut(Link::Retract);
             s.cut(Link::Start);
-        } else if piece.is(Role::Refuse) && before_verb {
-            s.cut(Link::Comma);
-            s.pieces.push(Piece {
-                what: What::Known(vec![Meaning::Role(Role::Not)]),
-                ..piece.clone()
-            });
+            if about {
+                s.pieces.push(not());
+            }
+        } else if piece.is(Role::Refuse) && s.refuses(rest.first()) {
+            if s.verb().is_none() || s.has_thing() {
+                s.cut(Link::Comma);
+            }
+            s.pieces.push(not());
         } else if piece.is(Role::Correct) {
             s.cut(Link::Correct);
         } else if piece.is(Role::Then) {

@@ -7,7 +7,7 @@ use deictic_core::category::Category;
 
 use super::forms::keys;
 use super::pack::{Pack, Role};
-use super::token::{Kind, Token, fold, tokens};
+use super::token::{Kind, Token, tokens};
 use crate::vocabulary::Lexicon;
 
 /// One thing that a phrase can mean.
@@ -50,6 +50,8 @@ pub struct Table {
     alike: HashMap<String, Vec<usize>>,
     /// Categories of quantities: their names, and which they are if the vocabulary has them.
     pub kinds: Vec<(String, Option<Category>)>,
+    /// The action that beats everything.
+    pub stop: Option<u8>,
     pack: Pack,
 }
 
@@ -62,6 +64,7 @@ impl Table {
             exact: HashMap::new(),
             alike: HashMap::new(),
             kinds: Vec::new(),
+            stop: lexicon.vocabulary().stop(),
             pack: pack.clone(),
         };
         table.names(lexicon, &pack);
@@ -72,11 +75,12 @@ impl Table {
             .iter()
             .for_each(|w| table.add(w, Meaning::Role(Role::Polite)));
         table.numbers(lexicon, &pack);
-        for filler in lexicon.fillers().iter().chain(&pack.fillers) {
-            if table
-                .find_exact(&[fold(filler)])
-                .is_none_or(|p| p.meanings.is_empty())
-            {
+        for filler in &pack.fillers {
+            table.add(filler, Meaning::Role(Role::Filler));
+        }
+        // Those of a vocabulary say nothing only where the language has no use for them: "then".
+        for filler in lexicon.fillers() {
+            if table.find_exact(&words_of(filler)).is_none() {
                 table.add(filler, Meaning::Role(Role::Filler));
             }
         }
