@@ -27,14 +27,14 @@ pub fn keys(word: &str, endings: &Endings) -> Vec<String> {
     keys
 }
 
-/// A verb with each of these endings, in all ways in which it may be spelled: with a dropped e, with
-/// a doubled consonant.
+/// A verb with each of these endings, in all ways in which it may be spelled: with a dropped e or
+/// i, with a doubled consonant.
 pub fn inflected<'a>(verb: &'a str, endings: &'a [String]) -> impl Iterator<Item = String> + 'a {
     let vowel = |c: char| "aeiouy".contains(c);
     endings.iter().flat_map(move |ending| {
         let mut forms = vec![format!("{verb}{ending}")];
         if ending.starts_with(vowel) {
-            if let Some(stem) = verb.strip_suffix('e') {
+            if let Some(stem) = verb.strip_suffix(['e', 'i']) {
                 forms.push(format!("{stem}{ending}"));
             }
             if let Some(last) = verb.chars().next_back().filter(|&c| !vowel(c)) {

@@ -160,7 +160,7 @@ pub(super) fn split(pieces: Vec<Piece>, table: &Table) -> Vec<Clause> {
             if about {
                 s.pieces.push(not());
             }
-        } else if piece.is(Role::Refuse) && s.refuses(rest.first()) {
+        } else if piece.is(Role::Refuse) && (s.refuses(rest.first()) || excludes(piece, rest)) {
             if s.verb().is_none() || s.has_thing() {
                 s.cut(Link::Comma);
             }
@@ -207,4 +207,10 @@ fn ahead_is_verb(rest: &[Piece]) -> bool {
     rest.iter()
         .take_while(|p| p.what != What::Comma)
         .any(|p| is_verb(p) || p.forms().next().is_some())
+}
+
+/// Where one word is "no" and "not", as "ne" is in Czech, only a pause behind it makes it "no".
+fn excludes(piece: &Piece, rest: &[Piece]) -> bool {
+    let next = rest.first();
+    piece.is(Role::Not) && next.is_some_and(|p| p.what != What::Comma && !is_verb(p))
 }
