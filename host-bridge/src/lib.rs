@@ -3,13 +3,16 @@
 
 pub mod answering;
 pub mod cmd;
+pub mod deciding;
 pub mod diagnose;
 pub mod explain;
+pub mod hand;
 pub mod language;
 pub mod link;
 pub mod report;
 pub mod robot;
 pub mod scene;
+pub mod script;
 pub mod sensor;
 pub mod session;
 pub mod setups;

@@ -17,6 +17,7 @@ struct Cli {
 enum Command {
     Decide(cmd::decide::Decide),
     Run(cmd::run::Run),
+    Play(cmd::play::Play),
     Setups(cmd::setups::Setups),
 }
 
@@ -24,6 +25,7 @@ fn main() -> miette::Result<ExitCode> {
     match Cli::parse().command {
         Command::Decide(decide) => decide.run()?,
         Command::Run(run) => return run.run().map(ExitCode::from),
+        Command::Play(play) => play.run()?,
         Command::Setups(setups) => setups.run()?,
     }
     Ok(ExitCode::SUCCESS)

@@ -72,17 +72,18 @@ pub fn intent(intent: &large::Intent, lexicon: &Lexicon) -> IntentReport {
     }
 }
 
-/// The report of a decision that was made on `scene`.
+/// The report of a decision that was made on `scene`, when `heard` was heard.
 #[must_use]
 pub fn decision(
     decision: &large::Decision,
+    heard: Option<&large::Intent>,
     scene: &large::Scene,
     lexicon: &Lexicon,
 ) -> DecisionReport {
     let best = decision.best.as_ref();
     let (outcome, executed, asked) = match &decision.outcome {
         Outcome::Execute(what) => ("execute", Some(intent(what, lexicon)), None),
-        Outcome::Ask(q) => ("ask", None, Some(question(q, best, scene, lexicon))),
+        Outcome::Ask(q) => ("ask", None, Some(question(q, best, heard, scene, lexicon))),
         Outcome::Repeat => ("repeat", None, None),
     };
     DecisionReport {
@@ -96,6 +97,7 @@ pub fn decision(
 fn question(
     question: &Question,
     best: Option<&large::Intent>,
+    heard: Option<&large::Intent>,
     scene: &large::Scene,
     lexicon: &Lexicon,
 ) -> QuestionReport {
@@ -115,6 +117,6 @@ fn question(
             .iter()
             .map(|&c| lexicon.option_name(question.category, c))
             .collect(),
-        text: explain::question(question, best, scene, lexicon),
+        text: explain::question(question, best, heard, scene, lexicon),
     }
 }

@@ -12,7 +12,8 @@ use rand_distr::{Distribution, Exp1, StandardNormal, StandardUniform};
 use crate::vocabulary::Lexicon;
 
 /// How noisy a made-up sensor is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Noise {
     /// None: the rows of the similarity tables as they are.
     N0,

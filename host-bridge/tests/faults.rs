@@ -12,13 +12,13 @@ use deictic::session::Happening;
 use deictic::showing::showing;
 use deictic::unit::{Distrust, GestureUnit, Loss, UnitError};
 use deictic::vocabulary::Lexicon;
-use deictic_core::large::{self, Link, Message};
+use deictic_core::large::{self, Link, ToHost, ToUnit};
 use deictic_core::protocol::message::{Configuration, Hello};
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
 
-fn is_decision(message: &Message) -> bool {
-    matches!(message, Message::Decision(_))
+fn is_decision(message: &ToHost) -> bool {
+    matches!(message, ToHost::Decision(_))
 }
 
 fn lost(h: &Happening) -> bool {
@@ -122,7 +122,7 @@ fn a_decision_that_was_made_before_the_loss_is_not_carried_out_after_it() {
             }
             let mut all = std::mem::take(&mut *keep.lock().unwrap());
             // The old decision comes first of all that is heard after the loss.
-            if matches!(message, Message::Hello(_)) {
+            if matches!(message, ToHost::Hello(_)) {
                 all.extend(frame);
                 return all;
             }
@@ -191,7 +191,7 @@ fn a_decision_after_lost_frames_is_not_carried_out() {
     let mut swallowed = false;
     cable.with(|line| {
         line.filter = Some(Box::new(move |message, frame| {
-            if !swallowed && matches!(message, Message::Heartbeat(_)) {
+            if !swallowed && matches!(message, ToHost::Heartbeat(_)) {
                 swallowed = true;
                 return Vec::new();
             }
@@ -249,8 +249,7 @@ fn a_frame_that_comes_twice_is_done_once() {
 fn a_scene_that_does_not_arrive_is_noticed_and_sent_again() {
     let (cable, lexicon) = (Cable::new(), lexicon());
     let mut session = open(&cable, &lexicon, 1000.0);
-    // Parts of a scene are the only long frames to the unit once it is loaded.
-    cable.with(|line| line.swallow = Some(|bytes| bytes.len() > 150));
+    cable.with(|line| line.swallow = Some(|said| matches!(said, ToUnit::Scene(_))));
     session
         .observe(showing("pick can", &lexicon).unwrap())
         .unwrap();
@@ -274,9 +273,9 @@ struct Other(Box<Link>, Vec<u8>);
 impl Wire for Other {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
         for &byte in bytes {
-            if let Some(received) = self.0.receive::<Message>(byte) {
+            if let Some(received) = self.0.receive::<ToUnit>(byte) {
                 assert!(
-                    matches!(received.message, Message::Hello(_)),
+                    matches!(received.message, ToUnit::Hello(_)),
                     "it was told more"
                 );
                 let hello = Hello {
@@ -286,10 +285,7 @@ impl Wire for Other {
                     capacities: large::Unit::capacities(),
                 };
                 let mut out = Outbox::<256>::new();
-                assert!(
-                    self.0
-                        .send::<Message, 256>(&Message::Hello(hello), &mut out)
-                );
+                assert!(self.0.send::<ToHost, 256>(&ToHost::Hello(hello), &mut out));
                 self.1.extend(out.waiting());
             }
         }

@@ -4,8 +4,8 @@ use deictic_core::decide::Outcome;
 
 use super::printer::Printer;
 use crate::answering::{Reply, reply};
-use crate::language::{Listener, text_of};
 use crate::explain;
+use crate::language::{Listener, text_of};
 use crate::robot::Event;
 use crate::sensor::Sensors;
 use crate::session::{Happening, Session};
@@ -96,9 +96,9 @@ impl<'a> Conversation<'a> {
 
     /// Takes what was said and shown.
     pub fn take(&mut self, session: &mut Session<'_>, said: Option<&str>, shown: Option<&str>) {
-        self.printer.heard(said, shown);
         self.last = Ending::NotDone;
         if let (Some(text), None, Some(question)) = (said, shown, session.question().cloned()) {
+            self.printer.answered(text);
             match reply(text, &question, self.listener, session.lexicon()) {
                 Err(error) => self.printer.not_understood(&error, error.remedy()),
                 Ok(Reply::Answer(sentence)) => {
@@ -114,6 +114,7 @@ impl<'a> Conversation<'a> {
             }
             return;
         }
+        self.printer.heard(said, shown);
         let shown = match shown.map(|text| showing(text, session.lexicon())) {
             Some(Err(error)) => {
                 self.printer.not_understood(&error, error.remedy());

@@ -136,7 +136,6 @@ fn play(
                     return Err(advice(lost.what, lost.remedy));
                 }
                 Happening::Robot(Event::Begun { number, .. }) if turn.stop_at == Some(number) => {
-                    printer.heard(Some("stop"), None);
                     conversation.line(session, b"stop");
                 }
                 _ => {}
@@ -168,7 +167,10 @@ impl Row {
             Happening::Decided { decision, .. } => self.decided.push(match &decision.outcome {
                 Outcome::Execute(intent) => explain::intent(intent, session.lexicon()),
                 Outcome::Ask(question) => {
-                    format!("asks which {}", session.lexicon().category_name(question.category))
+                    format!(
+                        "asks which {}",
+                        session.lexicon().category_name(question.category)
+                    )
                 }
                 Outcome::Repeat => "asks to repeat".to_owned(),
             }),
@@ -179,7 +181,9 @@ impl Row {
             Happening::Robot(Event::Done(_)) if !self.robot.starts_with("stopped") => {
                 self.robot = "done".to_owned();
             }
-            Happening::Robot(Event::Stopped { step, .. }) => self.robot = format!("stopped: {step}"),
+            Happening::Robot(Event::Stopped { step, .. }) => {
+                self.robot = format!("stopped: {step}")
+            }
             Happening::Robot(Event::Failed { why, .. }) => self.robot = format!("failed: {why}"),
             _ => {}
         }
@@ -206,7 +210,9 @@ fn summarise(rows: &[Row]) {
     anstream::println!();
     for (i, line) in lines.iter().enumerate() {
         let cells = line.iter().zip(widths);
-        let text: Vec<_> = cells.map(|(cell, width)| format!("{cell:<width$}")).collect();
+        let text: Vec<_> = cells
+            .map(|(cell, width)| format!("{cell:<width$}"))
+            .collect();
         let text = text.join("  ");
         if i == 0 {
             anstream::println!("{}", paint::good(text.trim_end()));

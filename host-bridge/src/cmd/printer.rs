@@ -126,6 +126,12 @@ impl Printer {
         self.object(&json!({ "event": "heard", "said": said, "shown": shown }));
     }
 
+    /// What was answered to a question.
+    pub fn answered(self, text: &str) {
+        self.line("answered", text);
+        self.object(&json!({ "event": "answered", "said": text }));
+    }
+
     /// Something that happened.
     pub fn happening(self, happening: &Happening, table: &Tabletop, lexicon: &Lexicon) {
         match happening {

@@ -30,11 +30,11 @@ pub enum Address {
 }
 
 /// An address that cannot be understood.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-#[error("`{0}` is not the address of a unit")]
-#[diagnostic(help(
-    "write serial:/dev/ttyACM0, serial:/dev/ttyACM0@921600, tcp:127.0.0.1:7700, qemu, or inside for none at all"
-))]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{0}` is not the address of a unit; write serial:/dev/ttyACM0, serial:/dev/ttyACM0@921600, \
+     tcp:127.0.0.1:7700, qemu, or inside for none at all"
+)]
 pub struct AddressError(String);
 
 impl FromStr for Address {

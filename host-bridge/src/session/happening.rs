@@ -19,6 +19,8 @@ pub enum Happening {
         scene: u32,
         /// What it has decided.
         decision: Box<Decision>,
+        /// What was heard and seen, before it was held against the scene.
+        heard: Option<Intent>,
     },
     /// Why the unit has decided so; only in a session that explains.
     Reasons(Box<Reasons>),

@@ -16,6 +16,7 @@ use deictic_core::protocol::message::{Configuration, Decided, RobotState, RobotS
 use deictic_core::time::Micros;
 use deictic_core::unit::pairing::ANSWER;
 
+use crate::deciding::heard;
 use crate::explain;
 use crate::explain::reasons::Reasons;
 use crate::robot::{self, Command, CommandId, Robot, World};
@@ -50,6 +51,8 @@ pub struct Session<'a> {
     run: u32,
     commands: u32,
     doing: Option<Doing>,
+    /// What the next decision is made of: the sentences since the last one that was final.
+    spoken: Vec<Sentence>,
     /// The decision that asked, and what.
     question: Option<(u32, Question)>,
     /// Until when a decision is to be there.
@@ -87,6 +90,7 @@ impl<'a> Session<'a> {
             run: std::process::id(),
             commands: 0,
             doing: None,
+            spoken: Vec::new(),
             question: None,
             due: None,
             queue: VecDeque::new(),
@@ -150,7 +154,11 @@ impl<'a> Session<'a> {
         if is_stop(&sentence, self.lexicon, &self.configuration.profile) {
             self.stop();
         }
-        self.question = None;
+        let modality = sentence.modality();
+        if self.question.take().is_some() || self.spoken.iter().any(|s| s.modality() == modality) {
+            self.spoken.clear();
+        }
+        self.spoken.push(sentence.clone());
         self.unit.observe(sentence)?;
         let window = Duration::from_micros(self.configuration.window.0);
         self.due = Some(Instant::now() + window + PATIENCE);
@@ -171,6 +179,7 @@ impl<'a> Session<'a> {
         let Some((decision, _)) = self.question.take() else {
             return self.observe(sentence);
         };
+        self.spoken.push(sentence.clone());
         self.unit.answer(decision, sentence)?;
         self.due = Some(Instant::now() + PATIENCE);
         Ok(())
@@ -215,6 +224,10 @@ impl<'a> Session<'a> {
         {
             self.drop_queue();
         }
+        if self.reasons.is_some() {
+            // What follows the decision is told after its reasons, which are a frame or two behind.
+            return Vec::new();
+        }
         std::mem::take(&mut self.happened)
     }
 
@@ -222,9 +235,15 @@ impl<'a> Session<'a> {
         Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX))
     }
 
+    /// Puts the reasons behind the decision that they are for.
     fn tell_reasons(&mut self) {
-        let reasons = self.reasons.take().map(|(reasons, _)| Box::new(reasons));
-        self.happened.extend(reasons.map(Happening::Reasons));
+        let Some((reasons, _)) = self.reasons.take() else {
+            return;
+        };
+        let decided = |h: &Happening| matches!(h, Happening::Decided { .. });
+        let place = self.happened.iter().rposition(decided).map_or(0, |i| i + 1);
+        let reasons = Happening::Reasons(Box::new(reasons));
+        self.happened.insert(place, reasons);
     }
 
     fn drop_queue(&mut self) {
@@ -272,10 +291,15 @@ impl<'a> Session<'a> {
     fn decided(&mut self, decided: Decided<16>, trust: Result<(), unit::Distrust>) {
         let number = decided.number;
         let decision = decided.decision;
+        let heard = heard(&self.spoken, self.lexicon, &self.configuration.profile);
+        if !matches!(decision.outcome, Outcome::Ask(_)) {
+            self.spoken.clear();
+        }
         self.happened.push(Happening::Decided {
             number,
             scene: decided.scene,
             decision: Box::new(decision.clone()),
+            heard: heard.clone(),
         });
         let stops = match &decision.outcome {
             Outcome::Execute(intent) => Some(intent.action) == self.lexicon.vocabulary().stop(),
@@ -300,7 +324,7 @@ impl<'a> Session<'a> {
             Outcome::Ask(question) => {
                 let best = decision.best.as_ref();
                 let scene = self.table.scene();
-                let text = explain::question(&question, best, scene, self.lexicon);
+                let text = explain::question(&question, best, heard.as_ref(), scene, self.lexicon);
                 self.question = Some((number, question.clone()));
                 self.happened.push(Happening::Asked { question, text });
                 self.drop_queue();

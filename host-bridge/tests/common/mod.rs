@@ -12,13 +12,13 @@ use deictic::session::{Happening, Session};
 use deictic::showing::showing;
 use deictic::understanding::{Understood, understand};
 use deictic::vocabulary::Lexicon;
-use deictic_core::large::{Link, Message, Sentence};
+use deictic_core::large::{Link, Sentence, ToHost, ToUnit};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::sentence::LANGUAGE;
 use deictic_core::time::Micros;
 
 /// What becomes of a frame from the unit: the bytes that arrive in its place.
-pub type Filter = Box<dyn FnMut(&Message, &[u8]) -> Vec<u8> + Send>;
+pub type Filter = Box<dyn FnMut(&ToHost, &[u8]) -> Vec<u8> + Send>;
 
 /// A line whose faults a test controls.
 pub struct Line {
@@ -30,11 +30,12 @@ pub struct Line {
     pub dead: bool,
     /// What becomes of frames from the unit.
     pub filter: Option<Filter>,
-    /// Bytes to the unit of which this is a part are lost.
-    pub swallow: Option<fn(&[u8]) -> bool>,
+    /// What is said to the unit and lost on the way.
+    pub swallow: Option<fn(&ToUnit) -> bool>,
     /// How often the line was opened.
     pub opened: usize,
     ear: Box<Link>,
+    mouth: Box<Link>,
     frame: Vec<u8>,
 }
 
@@ -52,6 +53,7 @@ impl Cable {
             swallow: None,
             opened: 0,
             ear: Box::default(),
+            mouth: Box::default(),
             frame: Vec::new(),
         })))
     }
@@ -72,7 +74,13 @@ impl Wire for Cable {
             if line.cut {
                 return Err(io::Error::other("pulled"));
             }
-            if line.dead || line.swallow.is_some_and(|lost| lost(bytes)) {
+            let mut lost = line.dead;
+            for &byte in bytes {
+                if let Some(said) = line.mouth.receive::<ToUnit>(byte) {
+                    lost |= line.swallow.is_some_and(|swallow| swallow(&said.message));
+                }
+            }
+            if lost {
                 return Ok(());
             }
             line.unit.write(bytes)
@@ -91,7 +99,7 @@ impl Wire for Cable {
             let mut arrived = Vec::new();
             for &byte in &taken[..n] {
                 line.frame.push(byte);
-                let message = line.ear.receive::<Message>(byte).map(|r| r.message);
+                let message = line.ear.receive::<ToHost>(byte).map(|r| r.message);
                 if byte == 0 {
                     let frame = std::mem::take(&mut line.frame);
                     match (&mut line.filter, message) {
