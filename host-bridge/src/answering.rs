@@ -13,7 +13,7 @@ use crate::vocabulary::Lexicon;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reply {
     /// It answers the question.
-    Answer(Sentence),
+    Answer(Box<Sentence>),
     /// It is a command of its own, and the question is forgotten.
     Command(Understood),
     /// Nothing of what was asked about is meant.
@@ -39,7 +39,7 @@ pub fn reply(
     if let ["yes" | "yeah" | "ok", ..] = said.split_whitespace().collect::<Vec<_>>()[..]
         && let [only] = question.candidates[..]
     {
-        return Ok(Reply::Answer(certainly(category, only, lexicon)?));
+        return Ok(Reply::Answer(Box::new(certainly(category, only, lexicon)?)));
     }
     let entries = lexicon.entries(category).iter();
     let named = entries.enumerate().find(|(_, entry)| {
@@ -47,7 +47,9 @@ pub fn reply(
     });
     if let Some((option, _)) = named {
         let option = u8::try_from(option).unwrap_or(u8::MAX);
-        return Ok(Reply::Answer(certainly(category, option, lexicon)?));
+        return Ok(Reply::Answer(Box::new(certainly(
+            category, option, lexicon,
+        )?)));
     }
     let utterance = listener.understand(text)?;
     if let [command] = &utterance.commands[..] {
@@ -64,7 +66,7 @@ pub fn reply(
             }
             let others = words.iter().filter(|w| w.is_present()).count();
             if others == 1 || category != Category::ACTION {
-                return Ok(Reply::Answer(answer));
+                return Ok(Reply::Answer(Box::new(answer)));
             }
         }
     }

@@ -1,118 +1,15 @@
-//! The simulated arm does what it is told step by step, refuses what it cannot do, stops at any
-//! moment, does nothing twice, and leaves the table as it made it.
+//! The simulated arm does what it is told step by step, stops at any moment, and leaves the table as
+//! it made it.
 
-use deictic::robot::sim::Sim;
-use deictic::robot::{Command, CommandId, Event, Refusal, Robot, World};
-use deictic::scene::{Change, SceneFile, Tabletop};
-use deictic::vocabulary::Lexicon;
+#[path = "common/bench.rs"]
+mod bench;
+
+use bench::*;
+use deictic::robot::{CommandId, Event, Refusal, Robot};
+use deictic::scene::Change;
 use deictic_core::category::Category;
 use deictic_core::intent::Parameter;
-use deictic_core::large::Intent;
 use deictic_core::time::Micros;
-
-struct Bench {
-    lexicon: Lexicon,
-    table: Tabletop,
-    sim: Sim,
-    now: Micros,
-    number: u32,
-}
-
-impl Bench {
-    fn new() -> Self {
-        let lexicon = Lexicon::tabletop().unwrap();
-        let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
-        let (sim, now, number) = (Sim::new(1.0), Micros(5), 0);
-        Self {
-            lexicon,
-            table,
-            sim,
-            now,
-            number,
-        }
-    }
-
-    fn intent(&self, action: &str, things: &[(Category, &str)]) -> Intent {
-        let mut intent = Intent {
-            action: self.lexicon.option(Category::ACTION, action).unwrap(),
-            ..Intent::default()
-        };
-        for (category, name) in things {
-            let option = self.lexicon.option(*category, name).unwrap();
-            let (category, quantity) = (*category, None);
-            intent
-                .parameters
-                .push(Parameter {
-                    category,
-                    option,
-                    quantity,
-                })
-                .unwrap();
-        }
-        intent
-    }
-
-    fn begin_as(&mut self, number: u32, scene: u32, intent: Intent) -> Result<(), Refusal> {
-        let id = CommandId { run: 1, number };
-        let world = World {
-            table: &self.table,
-            lexicon: &self.lexicon,
-        };
-        self.sim
-            .begin(self.now, &Command { id, intent, scene }, world)
-    }
-
-    fn begin(&mut self, action: &str, things: &[(Category, &str)]) -> Result<(), Refusal> {
-        let intent = self.intent(action, things);
-        self.number += 1;
-        self.begin_as(self.number, self.table.version(), intent)
-    }
-
-    /// Lets time pass and takes over what changes.
-    fn pass(&mut self, seconds: u64) -> Vec<Event> {
-        self.now = self.now.after(Micros::from_millis(seconds * 1000));
-        let events = self.sim.poll(self.now);
-        for event in &events {
-            if let Event::Changed { changes, .. } = event {
-                self.table.apply(changes, &self.lexicon).unwrap();
-            }
-        }
-        events
-    }
-
-    fn run(&mut self, action: &str, things: &[(Category, &str)]) -> Vec<Event> {
-        self.begin(action, things).unwrap();
-        let events = self.pass(120);
-        let id = CommandId {
-            run: 1,
-            number: self.number,
-        };
-        assert_eq!(events.last(), Some(&Event::Done(id)), "{action}");
-        events
-    }
-
-    fn feature(&self, category: Category, name: &str, feature: &str) -> f32 {
-        let option = self.lexicon.option(category, name).unwrap();
-        let thing = self.table.find(category, option).unwrap();
-        thing.features[self.lexicon.feature(feature).unwrap()]
-    }
-
-    fn position(&self, name: &str) -> [f32; 3] {
-        let option = self.lexicon.option(Category::OBJECT, name).unwrap();
-        self.table.find(Category::OBJECT, option).unwrap().position
-    }
-}
-
-const O: Category = Category::OBJECT;
-const S: Category = Category::STORAGE;
-
-fn steps(events: &[Event]) -> Vec<&str> {
-    let named = events.iter().filter_map(|e| match e {
-        Event::Begun { step, .. } => Some(step.as_str()),
-        _ => None,
-    });
-    named.collect()
-}
 
 #[test]
 fn a_pick_is_approach_lower_grasp_and_lift() {
@@ -218,94 +115,6 @@ fn pushing_moves_a_thing_where_it_was_said() {
 }
 
 #[test]
-fn what_cannot_be_done_is_refused_and_nothing_moves() {
-    let mut bench = Bench::new();
-    let before = bench.table.clone();
-    let refused = [
-        ("release", vec![], Refusal::NothingHeld),
-        ("pick", vec![], Refusal::Missing("object")),
-        (
-            "pick",
-            vec![(O, "cleaner")],
-            Refusal::OutOfReach("cleaner".into()),
-        ),
-        ("unglue", vec![(O, "can")], Refusal::NotGlued("can".into())),
-        (
-            "pour",
-            vec![(O, "cup"), (S, "bowl")],
-            Refusal::Empty("cup".into()),
-        ),
-        (
-            "put-into",
-            vec![(O, "can"), (S, "foam")],
-            Refusal::Unfit {
-                thing: "foam".into(),
-                wanted: "container",
-            },
-        ),
-        ("put-into", vec![(O, "can")], Refusal::Missing("storage")),
-    ];
-    for (action, things, why) in refused {
-        assert_eq!(bench.begin(action, &things), Err(why.clone()), "{action}");
-        assert!(!why.remedy().is_empty() && !why.to_string().is_empty());
-        assert_eq!(bench.pass(10), []);
-    }
-    assert_eq!(bench.table, before);
-    let empty = SceneFile::parse("x", "").unwrap();
-    bench.table = empty.tabletop(&bench.lexicon).unwrap();
-    assert_eq!(
-        bench.begin("pick", &[(O, "can")]),
-        Err(Refusal::NotHere("can".into()))
-    );
-}
-
-#[test]
-fn a_hand_that_is_full_takes_nothing_else() {
-    let mut bench = Bench::new();
-    bench.run("pick", &[(O, "can")]);
-    let holding = Refusal::Holding("can".into());
-    assert_eq!(bench.begin("pick", &[(O, "cup")]), Err(holding.clone()));
-    assert_eq!(bench.begin("push", &[(O, "cup")]), Err(holding.clone()));
-    assert_eq!(
-        bench.begin("stack", &[(O, "cup"), (S, "foam")]),
-        Err(holding.clone())
-    );
-    assert_eq!(bench.begin("unglue", &[(O, "box")]), Err(holding));
-    bench.run("put-into", &[(O, "can"), (S, "bowl")]);
-    bench.run("pick", &[(O, "cup")]);
-    let events = bench.run("release", &[]);
-    assert_eq!(
-        steps(&events),
-        ["set down the cup", "let go of the cup", "retreat"]
-    );
-    assert_eq!(bench.sim.holding(), None);
-    assert!((bench.position("cup")[2] - 0.05).abs() < 1e-6);
-}
-
-#[test]
-fn only_one_command_at_a_time_only_once_and_only_on_the_present_scene() {
-    let mut bench = Bench::new();
-    let pick = bench.intent("pick", &[(O, "can")]);
-    assert_eq!(
-        bench.begin_as(4, 7, pick.clone()),
-        Err(Refusal::StaleScene {
-            decided_on: 7,
-            present: 1
-        })
-    );
-    bench.begin_as(4, 1, pick.clone()).unwrap();
-    assert_eq!(bench.begin_as(4, 1, pick.clone()), Err(Refusal::Repeated));
-    assert_eq!(bench.begin_as(5, 1, pick.clone()), Err(Refusal::Busy));
-    bench.pass(60);
-    for number in [4, 3] {
-        assert_eq!(
-            bench.begin_as(number, bench.table.version(), pick.clone()),
-            Err(Refusal::Repeated)
-        );
-    }
-}
-
-#[test]
 fn a_stop_stops_at_every_moment_and_keeps_what_the_hand_holds() {
     for tenth in 0..120 {
         let mut bench = Bench::new();
@@ -333,32 +142,4 @@ fn a_stop_stops_at_every_moment_and_keeps_what_the_hand_holds() {
             bench.run("put-into", &[(O, "can"), (S, "bowl")]);
         }
     }
-}
-
-#[test]
-fn an_action_of_the_users_own_stands_for_its_motion() {
-    let text = r#"
-        name = "x"
-        [[action]]
-        name = "zvedni"
-        motion = "pick"
-        compulsory = ["object"]
-        [[action]]
-        name = "dance"
-        [[object]]
-        name = "can"
-    "#;
-    let mut bench = Bench::new();
-    bench.lexicon = Lexicon::parse("x", text).unwrap();
-    let scene = "[[object]]\nname = \"can\"\nposition = [0.4, 0, 0.1]";
-    bench.table = SceneFile::parse("x", scene)
-        .unwrap()
-        .tabletop(&bench.lexicon)
-        .unwrap();
-    assert_eq!(
-        bench.begin("dance", &[]),
-        Err(Refusal::UnknownMotion("dance".into()))
-    );
-    bench.run("zvedni", &[(O, "can")]);
-    assert_eq!(bench.sim.holding(), Some("can"));
 }

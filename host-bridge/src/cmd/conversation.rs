@@ -102,7 +102,7 @@ impl<'a> Conversation<'a> {
             match reply(text, &question, self.listener, session.lexicon()) {
                 Err(error) => self.printer.not_understood(&error, error.remedy()),
                 Ok(Reply::Answer(sentence)) => {
-                    if let Err(error) = session.answer(sentence) {
+                    if let Err(error) = session.answer(*sentence) {
                         self.printer.not_understood(&error, AGAIN.into());
                     }
                 }

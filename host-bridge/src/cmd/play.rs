@@ -31,7 +31,7 @@ use crate::session::{Happening, Session};
 pub struct Play {
     /// The script (TOML); without it the tabletop session that comes with the program
     script: Option<PathBuf>,
-    /// The unit: serial:PORT[@BAUD], tcp:HOST:PORT, qemu, or inside for none at all
+    /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, qemu, or inside for none at all
     #[arg(long, value_name = "ADDRESS", default_value = "inside")]
     board: Address,
     /// How many times as fast as a careful arm the simulated one moves

@@ -41,7 +41,7 @@ const TURN: Duration = Duration::from_millis(10);
 #[derive(Args, Clone, Debug)]
 #[command(verbatim_doc_comment)]
 pub struct Run {
-    /// The unit: serial:PORT[@BAUD], tcp:HOST:PORT, qemu, or inside for none at all
+    /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, qemu, or inside for none at all
     #[arg(long, value_name = "ADDRESS")]
     board: Address,
     /// The robot

@@ -30,7 +30,7 @@ use crate::vocabulary::Lexicon;
 pub struct Setups {
     /// The set-ups (JSON)
     file: PathBuf,
-    /// The unit that decides: serial:PORT[@BAUD], tcp:HOST:PORT or qemu; without one it is done here
+    /// The unit that decides: serial:PORT@BAUD, tcp:HOST:PORT or qemu; without one it is done here
     #[arg(long, value_name = "ADDRESS")]
     board: Option<Address>,
     /// How often each command is drawn

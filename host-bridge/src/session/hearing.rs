@@ -1,0 +1,170 @@
+//! What a session does about what the unit and the robot tell it.
+
+use std::time::Instant;
+
+use deictic_core::decide::Outcome;
+use deictic_core::large::Intent;
+use deictic_core::protocol::message::{Decided, RobotState, RobotStatus};
+
+use super::{Doing, Happening, PATIENCE, Session};
+use crate::deciding::heard;
+use crate::explain;
+use crate::explain::reasons::Reasons;
+use crate::robot::{self, Command, CommandId, World};
+use crate::unit;
+
+impl Session<'_> {
+    pub(super) fn hear_unit(&mut self, event: unit::Event) {
+        match event {
+            unit::Event::Decision { decided, trust } => {
+                self.due = None;
+                self.decided(*decided, trust);
+            }
+            unit::Event::WhyActions(why) => {
+                if let Some((reasons, _)) = &mut self.reasons {
+                    reasons.add_actions(&why, self.lexicon);
+                }
+            }
+            unit::Event::Why(why) => {
+                if let Some((reasons, _)) = &mut self.reasons {
+                    reasons.add(&why, self.lexicon);
+                }
+            }
+            // Asked for after every decision that is explained, so that all reasons are before it.
+            unit::Event::Statistics(_) => self.tell_reasons(),
+            unit::Event::Fault(fault) => {
+                self.due = None;
+                self.happened.push(Happening::Fault(fault));
+                self.drop_queue();
+            }
+            unit::Event::Lost(loss) => {
+                self.robot.stop(self.now());
+                self.due = None;
+                self.question = None;
+                self.reasons = None;
+                self.happened.push(Happening::Lost(loss));
+                self.drop_queue();
+            }
+            unit::Event::Back(hello) => self.happened.push(Happening::Back(hello)),
+        }
+    }
+
+    fn decided(&mut self, decided: Decided<16>, trust: Result<(), unit::Distrust>) {
+        let number = decided.number;
+        let decision = decided.decision;
+        let heard = heard(&self.spoken, self.lexicon, &self.configuration.profile);
+        if !matches!(decision.outcome, Outcome::Ask(_)) {
+            self.spoken.clear();
+        }
+        self.happened.push(Happening::Decided {
+            number,
+            scene: decided.scene,
+            decision: Box::new(decision.clone()),
+            heard: heard.clone(),
+        });
+        let stops = match &decision.outcome {
+            Outcome::Execute(intent) => Some(intent.action) == self.lexicon.vocabulary().stop(),
+            _ => false,
+        };
+        if self.configuration.explain && !stops {
+            self.reasons = Some((Reasons::default(), Instant::now() + PATIENCE));
+            // A unit that cannot be told is lost, which is an event of its own.
+            let _ = self.unit.ask_statistics();
+        }
+        if stops {
+            // Whatever frames were lost before it: standing still is always safe.
+            self.stop();
+        } else if let Err(distrust) = trust {
+            self.happened.push(Happening::Distrusted(distrust));
+            self.drop_queue();
+            self.report(number, RobotState::Refused);
+            return;
+        }
+        match decision.outcome {
+            Outcome::Execute(intent) => self.execute(number, decided.scene, intent),
+            Outcome::Ask(question) => {
+                let best = decision.best.as_ref();
+                let scene = self.table.scene();
+                let text = explain::question(&question, best, heard.as_ref(), scene, self.lexicon);
+                self.question = Some((number, question.clone()));
+                self.happened.push(Happening::Asked { question, text });
+                self.drop_queue();
+            }
+            Outcome::Repeat => self.drop_queue(),
+        }
+    }
+
+    fn execute(&mut self, decision: u32, scene: u32, intent: Intent) {
+        self.hear_robot();
+        self.commands = self.commands.saturating_add(1);
+        let id = CommandId {
+            run: self.run,
+            number: self.commands,
+        };
+        let command = Command { id, intent, scene };
+        let world = World {
+            table: &self.table,
+            lexicon: self.lexicon,
+        };
+        let now = self.now();
+        match self.robot.begin(now, &command, world) {
+            Ok(()) => {
+                self.doing = Some(Doing { id, decision });
+                self.happened.push(Happening::Accepted(command.intent));
+                self.report(decision, RobotState::Running(0));
+            }
+            Err(refusal) => {
+                let intent = command.intent;
+                self.happened.push(Happening::Refused { intent, refusal });
+                self.drop_queue();
+                if self.doing.is_none() {
+                    self.report(decision, RobotState::Refused);
+                }
+            }
+        }
+        self.hear_robot();
+    }
+
+    pub(super) fn hear_robot(&mut self) {
+        let now = self.now();
+        for event in self.robot.poll(now) {
+            self.happened.push(Happening::Robot(event.clone()));
+            let mine = |id: &CommandId| self.doing.as_ref().filter(|d| d.id == *id);
+            match &event {
+                robot::Event::Begun { id, .. } => {
+                    if let Some(decision) = mine(id).map(|d| d.decision) {
+                        let percent = self.robot.progress(now).map_or(0, |(_, p)| p);
+                        self.report(decision, RobotState::Running(percent));
+                    }
+                }
+                robot::Event::Changed { changes, .. } => {
+                    match self.table.apply(changes, self.lexicon) {
+                        Err(error) => self.happened.push(Happening::BadTable(error)),
+                        Ok(()) => {
+                            self.happened.push(Happening::Table(self.table.version()));
+                            // A unit that is not there gets it when it comes back.
+                            let _ = self.unit.set_scene(self.table.scene());
+                        }
+                    }
+                }
+                robot::Event::Done(id) => self.over(*id, RobotState::Done),
+                robot::Event::Stopped { id, .. } => self.over(*id, RobotState::Stopped),
+                robot::Event::Failed { id, .. } => self.over(*id, RobotState::Failed),
+            }
+        }
+    }
+
+    fn over(&mut self, id: CommandId, state: RobotState) {
+        if let Some(doing) = self.doing.take_if(|d| d.id == id) {
+            if state != RobotState::Done {
+                self.drop_queue();
+            }
+            self.report(doing.decision, state);
+        }
+    }
+
+    fn report(&mut self, decision: u32, state: RobotState) {
+        // A unit that is not there has nothing to do with this command any more.
+        let _ = self.unit.report(RobotStatus { decision, state });
+    }
+}
