@@ -85,6 +85,9 @@ fn lints(toolchain: &Toolchain) -> Vec<(String, Command)> {
             ],
         ));
     }
+    let mut docs = host("docs", &["doc", "--workspace", "--no-deps", "--quiet"]);
+    docs.1.env("RUSTDOCFLAGS", "-D warnings");
+    steps.push(docs);
     if toolchain.has_clippy() {
         for feature in ["mps2-an386", "bench", "nucleo-g474re"] {
             let mut command = toolchain.firmware_cargo("clippy");
