@@ -17,6 +17,7 @@ pub mod reader;
 pub mod shape;
 pub mod shape_table;
 pub mod stroke;
+pub mod stroke_table;
 pub mod tracking;
 pub mod vector;
 pub mod wire;

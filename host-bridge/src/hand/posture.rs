@@ -183,7 +183,17 @@ pub fn of_shape(shape: Shape, anatomy: &Anatomy, rng: &mut impl Rng) -> Posture 
             let rest = loosely(rng);
             [Straight, Straight, Straight, rest, rest]
         }
-        Shape::Four => [Folded, Straight, Straight, Straight, Straight],
+        Shape::Four => {
+            let mut posture = hand([Folded, Straight, Straight, Straight, Straight], rng);
+            // A thumb beside the index is that of a hand at rest, or of one that closes.
+            posture[0] = Bend {
+                knuckle: degrees(rng, 5.0, 45.0),
+                middle: degrees(rng, 15.0, 45.0),
+                outer: degrees(rng, 15.0, 65.0),
+                aside: degrees(rng, -18.0, 10.0),
+            };
+            return posture;
+        }
         // The thumb of a hand at rest hangs below the palm.
         Shape::Five => {
             let thumb = if rng.random_bool(0.2) { Half } else { Straight };

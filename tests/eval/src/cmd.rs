@@ -2,6 +2,7 @@
 
 mod bound;
 mod generate;
+mod gestures;
 mod paper;
 mod parity;
 mod score;
@@ -15,6 +16,7 @@ use clap::Subcommand;
 pub enum Command {
     Bound(bound::Bound),
     Generate(generate::Generate),
+    Gestures(gestures::Gestures),
     Paper(paper::Paper),
     Parity(parity::Parity),
     Score(score::Score),
@@ -28,6 +30,7 @@ impl Command {
         match self {
             Self::Bound(command) => command.run(),
             Self::Generate(command) => command.run(),
+            Self::Gestures(command) => command.run(),
             Self::Paper(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Score(command) => command.run(),

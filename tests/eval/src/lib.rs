@@ -14,6 +14,7 @@ pub mod catalogue;
 pub mod dataset;
 pub mod free;
 pub mod generate;
+pub mod gestures;
 pub mod interval;
 pub mod noise;
 pub mod order;

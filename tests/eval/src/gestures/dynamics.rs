@@ -1,6 +1,7 @@
 //! Dynamic gestures: reading strokes, learning templates, scoring.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::{Context, bail};
@@ -120,12 +121,7 @@ pub fn learn(performances: &[&Performance], each: usize) -> anyhow::Result<Learn
             gestures.len()
         );
     }
-    let scale = Scale {
-        shape: 0.05,
-        length: 0.02,
-        seconds: 0.02,
-        reach: 0.5,
-    };
+    let scale = fitted(performances);
     let mut templates = Vec::new();
     for (name, number) in gestures.iter().zip(0_u8..) {
         let strokes: Vec<path::Stroke> = performances
@@ -145,6 +141,60 @@ pub fn learn(performances: &[&Performance], each: usize) -> anyhow::Result<Learn
         templates,
         scale,
     })
+}
+
+/// What is assumed of people whose strokes are too few to tell.
+const ASSUMED: Scale = Scale {
+    shape: 0.05,
+    length: 0.02,
+    seconds: 0.02,
+    reach: 0.6,
+};
+
+/// The scale at which the probabilities of strokes, told by those of other people, are right (least
+/// cross-entropy), and the reach beyond which only one stroke in a hundred lies.
+fn fitted(performances: &[&Performance]) -> Scale {
+    let strokes: Vec<(&Performance, path::Stroke)> = performances
+        .iter()
+        .filter_map(|p| Some((*p, p.stroke?)))
+        .collect();
+    // Per stroke, the distance to the nearest one of the same gesture and of every other.
+    let nearest = |(performance, stroke): &(&Performance, path::Stroke)| {
+        let mut least: BTreeMap<&str, f32> = BTreeMap::new();
+        for (other, of_other) in &strokes {
+            if other.subject != performance.subject {
+                let template = Template::new(0, of_other);
+                let far = distance(stroke, &template, &ASSUMED, f32::INFINITY);
+                let entry = least.entry(&other.gesture).or_insert(f32::INFINITY);
+                *entry = entry.min(far);
+            }
+        }
+        let own = least.remove(performance.gesture.as_str())?;
+        Some((own, least.into_values().collect::<Vec<f32>>()))
+    };
+    let mut known: Vec<(f32, Vec<f32>)> = strokes.par_iter().filter_map(nearest).collect();
+    if known.len() < 50 {
+        return ASSUMED;
+    }
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let reach = known[known.len() * 99 / 100].0;
+    let loss = |shape: f32| -> f64 {
+        let terms = known.iter().map(|(own, others)| {
+            let power = |far: f32| f64::from((own - far) / shape).exp();
+            let rest: f64 = others.iter().map(|far| power(*far)).sum();
+            (1.0 + rest + power(reach)).ln()
+        });
+        terms.sum()
+    };
+    let shape = (1..60)
+        .map(|n| 0.005 * 1.08_f32.powi(n))
+        .min_by(|a, b| loss(*a).total_cmp(&loss(*b)))
+        .unwrap_or(ASSUMED.shape);
+    Scale {
+        shape,
+        reach,
+        ..ASSUMED
+    }
 }
 
 /// Indices of `count` strokes such that every stroke has a near one among them (k-medoids, greedy).
@@ -282,29 +332,103 @@ pub fn leave_one_out(all: &[Performance], each: usize) -> anyhow::Result<Score> 
     Ok(score(&answers, &known, templates))
 }
 
-/// Performances of made-up people: each gesture `takes` times.
+/// What a made-up person did.
+#[derive(Clone, Debug)]
+pub struct Take {
+    /// The person's number.
+    pub subject: usize,
+    /// Which gesture.
+    pub gesture: String,
+    /// How manieth time.
+    pub take: usize,
+    /// Time in ms, place in mm.
+    pub samples: Vec<(f64, [f64; 3])>,
+}
+
+/// Made-up people perform each gesture `takes` times.
 #[must_use]
-pub fn made_up(names: &[String], people: usize, takes: usize, seed: u64) -> Vec<Performance> {
+pub fn perform(names: &[String], people: usize, takes: usize, seed: u64) -> Vec<Take> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut performances = Vec::new();
-    for person in 0..people {
+    let mut performed = Vec::new();
+    for subject in 0..people {
         let manner = Manner::person(&mut rng);
         for name in names {
-            for _ in 0..takes {
-                let samples = manner.perform(name, 110.0, &mut rng);
-                performances.push(Performance {
-                    subject: format!("p{person}"),
+            for take in 0..takes {
+                performed.push(Take {
+                    subject,
                     gesture: name.clone(),
-                    stroke: stroke(samples.unwrap_or_default().into_iter()),
+                    take,
+                    samples: manner.perform(name, 110.0, &mut rng).unwrap_or_default(),
                 });
             }
         }
     }
-    performances
+    performed
+}
+
+/// The same as the unit sees them.
+#[must_use]
+pub fn made_up(names: &[String], people: usize, takes: usize, seed: u64) -> Vec<Performance> {
+    let seen = |take: Take| Performance {
+        subject: format!("p{}", take.subject),
+        gesture: take.gesture,
+        stroke: stroke(take.samples.into_iter()),
+    };
+    let performed = perform(names, people, takes, seed);
+    performed.into_iter().map(seen).collect()
+}
+
+/// Templates of the unit's own gestures, from forty made-up people.
+///
+/// # Errors
+/// Those of [`learn`].
+pub fn own_templates() -> anyhow::Result<Learned> {
+    let performances = made_up(&own_names(), 40, 2, 11);
+    learn(&performances.iter().collect::<Vec<_>>(), 8)
+}
+
+/// The templates as Rust source for core/src/gesture/stroke_table.rs.
+#[must_use]
+pub fn table(learned: &Learned) -> String {
+    let Scale {
+        shape,
+        length,
+        seconds,
+        reach,
+    } = learned.scale;
+    let mut text = format!(
+        "//! Templates of the dynamic gestures that a unit knows without being taught, written by\n\
+         //! `deictic-eval gestures train` from movements of made-up people.\n\n\
+         use super::stroke::{{Scale, Template}};\n\n\
+         /// How distances become probabilities.\n\
+         pub const SCALE: Scale = Scale {{\n    shape: {shape:.4},\n    length: {length:.4},\n    \
+         seconds: {seconds:.4},\n    reach: {reach:.4},\n}};\n\n\
+         /// The gestures, by the number that templates carry.\n\
+         pub const NAMES: [&str; {}] = {:?};\n\n\
+         /// Examples of each gesture.\n#[rustfmt::skip]\npub static TEMPLATES: [Template; {}] = [\n",
+        learned.gestures.len(),
+        learned.gestures,
+        learned.templates.len(),
+    );
+    for t in &learned.templates {
+        let _ = writeln!(
+            text,
+            "    Template {{ gesture: {}, ln_length: {:.3}, ln_seconds: {:.3}, points: {:?} }},",
+            t.gesture, t.ln_length, t.ln_seconds, t.points
+        );
+    }
+    text.push_str("];\n");
+    text
 }
 
 /// The names of the unit's own gestures.
 #[must_use]
 pub fn own_names() -> Vec<String> {
     GESTURES.map(str::to_owned).to_vec()
+}
+
+/// The 26 letters.
+#[must_use]
+pub fn letters() -> Vec<String> {
+    ('a'..='z').map(String::from).collect()
 }

@@ -22,7 +22,8 @@ pub struct Labelled {
 /// What a file of hands holds.
 #[derive(Debug)]
 pub enum Hands {
-    /// Shapes with labels: columns `label`, `recording` and the 15 distances `d_T-I_mm`, ...
+    /// Shapes with labels: columns `label`, `recording` and the 15 distances `d_T-I_mm`, ... Labels
+    /// that the unit has no shape for are *none of these*.
     Labelled(Vec<Labelled>),
     /// Frames by recording and hand, in the order of time: columns as in `leapjs_frames.csv.xz`.
     Frames(BTreeMap<String, Vec<HandFrame>>),
@@ -127,7 +128,6 @@ fn labelled(
         let row = row?;
         let label = row.text("label")?;
         let shape = Shape::ALL.into_iter().find(|s| s.name() == label);
-        let shape = shape.with_context(|| format!("line {}: no shape {label:?}", row.line))?;
         let mut distances = [0.0; FEATURES];
         for (distance, name) in distances.iter_mut().zip(&names) {
             *distance = row.number(name)?;
@@ -136,7 +136,7 @@ fn labelled(
             bail!("line {}: distances that no hand has", row.line);
         };
         hands.push(Labelled {
-            shape,
+            shape: shape.unwrap_or(Shape::None),
             recording: row.number("recording")?,
             features,
         });

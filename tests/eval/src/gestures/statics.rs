@@ -5,9 +5,11 @@ use std::fmt::Write as _;
 
 use deictic::hand::anatomy::{Anatomy, Place};
 use deictic::hand::posture;
+use deictic_core::gesture::evidence::{Change, Evidence, Settings};
 use deictic_core::gesture::frame::{HandFrame, Side};
-use deictic_core::gesture::shape::{self, FEATURES, Network, SHAPES, Shape};
+use deictic_core::gesture::shape::{self, Network, SHAPES, Shape};
 use deictic_core::math;
+use deictic_core::time::Micros;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -82,10 +84,19 @@ fn examples(recorded: &[&Labelled], made_up: &[Labelled]) -> Vec<Example> {
         .collect()
 }
 
-/// Trains on recordings and made-up people.
+/// The same hands, those with a shape that no recording shows as *none of these*.
+fn outside(mut hands: Vec<Labelled>, recorded: &[&Labelled]) -> Vec<Labelled> {
+    let known: BTreeSet<Shape> = recorded.iter().map(|h| h.shape).collect();
+    for hand in hands.iter_mut().filter(|h| !known.contains(&h.shape)) {
+        hand.shape = Shape::None;
+    }
+    hands
+}
+
+/// Trains on recordings and made-up people. A shape that no recording shows is not learned.
 ///
 /// Recordings that a network trained on the others holds for wrongly labelled (their label's mean
-/// probability below [`CONTRADICTED`]) are left out. The answers to recordings not seen in training,
+/// probability below `CONTRADICTED`) are left out. The answers to recordings not seen in training,
 /// and to other made-up people, also give the temperature at which probabilities are right.
 #[must_use]
 pub fn learn(recorded: &[&Labelled], seed: u64) -> Network {
@@ -93,7 +104,7 @@ pub fn learn(recorded: &[&Labelled], seed: u64) -> Network {
         seed,
         ..Recipe::default()
     };
-    let people = made_up(PEOPLE, seed);
+    let people = outside(made_up(PEOPLE, seed), recorded);
     let folds = folds(recorded, INNER_FOLDS, seed);
     let trials: Vec<_> = (0..INNER_FOLDS)
         .into_par_iter()
@@ -116,7 +127,7 @@ pub fn learn(recorded: &[&Labelled], seed: u64) -> Network {
         sum > CONTRADICTED * count
     };
     let recorded: Vec<&Labelled> = recorded.iter().filter(sound).copied().collect();
-    let strangers = made_up(PEOPLE / 4, seed ^ 0xffff);
+    let strangers = outside(made_up(PEOPLE / 4, seed ^ 0xffff), &recorded);
     let mut unseen = Vec::new();
     for (network, held) in &trials {
         let held: Vec<&Labelled> = held.iter().filter(sound).copied().collect();
@@ -249,27 +260,40 @@ pub struct Told {
     pub frames: usize,
     /// Frames whose hand gives no features.
     pub without_features: usize,
-    /// Frames taken for each shape.
+    /// Shapes in the order in which they were believed in, over time.
+    pub order: Vec<&'static str>,
+    /// Frames taken for each shape, one by one.
     pub taken_for: BTreeMap<&'static str, usize>,
     /// Of those, the ones with a probability over 0.9.
     pub sure: BTreeMap<&'static str, usize>,
 }
 
-/// Frame by frame, without evidence over time.
+/// Tells a recording frame by frame, and by evidence over time as the unit does.
 #[must_use]
 pub fn tell(network: &Network, frames: &[HandFrame]) -> Told {
     let mut told = Told {
         frames: frames.len(),
         without_features: 0,
+        order: Vec::new(),
         taken_for: BTreeMap::new(),
         sure: BTreeMap::new(),
     };
+    let mut evidence = Evidence::<SHAPES>::new();
+    let first = frames.first().map_or(0, |f| f.time);
+    let mut before = first;
     for frame in frames {
         let Ok(features) = shape::features(frame) else {
             told.without_features += 1;
             continue;
         };
         let probabilities = network.classify(&features);
+        let now = Micros(u64::from(frame.time.wrapping_sub(first)));
+        let seconds = frame.time.wrapping_sub(before) as f32 * 1e-6;
+        before = frame.time;
+        let change = evidence.update(now, seconds, &probabilities, &Settings::DEFAULT);
+        if let Some(Change::Begun(shape)) = change {
+            told.order.push(Shape::ALL[usize::from(shape)].name());
+        }
         let best = math::argmax(&probabilities).unwrap_or(SHAPES - 1);
         let name = Shape::ALL[best].name();
         *told.taken_for.entry(name).or_default() += 1;
@@ -283,29 +307,21 @@ pub fn tell(network: &Network, frames: &[HandFrame]) -> Told {
 /// The network as Rust source for core/src/gesture/shape_table.rs.
 #[must_use]
 pub fn table(network: &Network) -> String {
-    let mut text = String::from(
+    let rows = |rows: &mut dyn Iterator<Item = &[f32]>| {
+        rows.fold(String::new(), |mut text, row| {
+            let numbers: Vec<String> = row.iter().map(|w| format!("{w:.4}")).collect();
+            let _ = writeln!(text, "        [{}],", numbers.join(", "));
+            text
+        })
+    };
+    format!(
         "//! Weights of the network that tells shapes apart, written by `deictic-eval gestures train`.\n\n\
          use super::shape::Network;\n\n\
          /// Trained on recordings of the authors' toolbox (imitrob teleop_gesture_toolbox, Apache-2.0) and on\n\
          /// hands of made-up people.\n\
          #[rustfmt::skip]\n\
-         pub static NETWORK: Network = Network {\n    hidden: [\n",
-    );
-    let mut rows = |rows: &mut dyn Iterator<Item = &[f32]>| {
-        for row in rows {
-            let numbers: Vec<String> = row.iter().map(|w| format!("{w:.4}")).collect();
-            let _ = writeln!(text, "        [{}],", numbers.join(", "));
-        }
-    };
-    rows(&mut network.hidden.iter().map(<[f32; FEATURES + 1]>::as_slice));
-    text.push_str("    ],\n    output: [\n");
-    let mut rows = |rows: &mut dyn Iterator<Item = &[f32]>| {
-        for row in rows {
-            let numbers: Vec<String> = row.iter().map(|w| format!("{w:.4}")).collect();
-            let _ = writeln!(text, "        [{}],", numbers.join(", "));
-        }
-    };
-    rows(&mut network.output.iter().map(|row| row.as_slice()));
-    text.push_str("    ],\n};\n");
-    text
+         pub static NETWORK: Network = Network {{\n    hidden: [\n{}    ],\n    output: [\n{}    ],\n}};\n",
+        rows(&mut network.hidden.iter().map(|row| row.as_slice())),
+        rows(&mut network.output.iter().map(|row| row.as_slice())),
+    )
 }
