@@ -182,6 +182,7 @@ impl<'a> Conversation<'a> {
             Happening::Robot(Event::Stopped { .. } | Event::Failed { .. })
             | Happening::Refused { .. }
             | Happening::Distrusted(_)
+            | Happening::Overruled
             | Happening::Fault(_)
             | Happening::NoDecision
             | Happening::Lost(_)

@@ -174,7 +174,10 @@ impl Row {
                 }
                 Outcome::Repeat => "asks to repeat".to_owned(),
             }),
-            Happening::Distrusted(_) | Happening::Fault(_) | Happening::NoDecision => {
+            Happening::Distrusted(_)
+            | Happening::Overruled
+            | Happening::Fault(_)
+            | Happening::NoDecision => {
                 self.robot = "stands still".to_owned();
             }
             Happening::Refused { refusal, .. } => self.robot = format!("refuses: {refusal}"),
@@ -221,8 +224,9 @@ fn summarise(rows: &[Row]) {
         }
     }
     anstream::println!(
-        "\nTry next:\n  deictic run --board qemu               say and show it yourself\n  \
-         deictic decide --say \"pick the can\" --show \"pick|push can\" --explain\n  \
-         deictic play --explain                 all figures behind every decision"
+        "\nTry next:\n  \
+         cargo run -p deictic -- run --board inside     say and show it yourself, without a board\n  \
+         cargo xtask qemu                               a board to connect to\n  \
+         cargo run -p deictic -- decide --say \"pick the can\" --show \"pick|push can\" --explain"
     );
 }

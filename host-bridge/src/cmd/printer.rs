@@ -178,6 +178,10 @@ impl Printer {
                 let advice = explain::distrust(distrust);
                 self.advice("not done", "distrusted", &advice);
             }
+            Happening::Overruled => {
+                self.line("not done", "a stop was given meanwhile");
+                self.object(&json!({ "event": "overruled" }));
+            }
             Happening::Accepted(intent) => {
                 self.object(&json!({
                     "event": "accepted", "intent": report::intent(intent, lexicon),

@@ -80,12 +80,13 @@ pub fn distrust(distrust: &Distrust) -> Advice {
 #[must_use]
 pub fn loss(loss: &Loss) -> Advice {
     let what = match loss {
-        Loss::Wire(words) => format!("the link to the unit failed: {words}"),
+        Loss::Wire(words) => words.clone(),
         Loss::Silent => "the unit has fallen silent".to_owned(),
         Loss::Forgetful => {
             "the unit has restarted or lost touch, and forgot what it knew".to_owned()
         }
         Loss::Stale => "the unit did not take over the new scene".to_owned(),
+        Loss::Late => "the unit did not decide in time".to_owned(),
         Loss::Unloadable(why) => format!("the unit is there, but cannot be loaded: {why}"),
     };
     Advice::new(

@@ -33,6 +33,8 @@ pub enum Happening {
     },
     /// A decision is not acted upon.
     Distrusted(Distrust),
+    /// A decision is not acted upon, as a stop was given after what it was made on.
+    Overruled,
     /// The robot begins.
     Accepted(Intent),
     /// The robot does not begin; nothing has moved.

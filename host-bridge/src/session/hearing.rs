@@ -17,8 +17,10 @@ impl Session<'_> {
     pub(super) fn hear_unit(&mut self, event: unit::Event) {
         match event {
             unit::Event::Decision { decided, trust } => {
-                self.due = None;
                 self.decided(*decided, trust);
+                if !self.stopping {
+                    self.due = None;
+                }
             }
             unit::Event::WhyActions(why) => {
                 if let Some((reasons, _)) = &mut self.reasons {
@@ -40,6 +42,7 @@ impl Session<'_> {
             unit::Event::Lost(loss) => {
                 self.robot.stop(self.now());
                 self.due = None;
+                self.stopping = false;
                 self.question = None;
                 self.reasons = None;
                 self.happened.push(Happening::Lost(loss));
@@ -71,9 +74,15 @@ impl Session<'_> {
             // A unit that cannot be told is lost, which is an event of its own.
             let _ = self.unit.ask_statistics();
         }
+        if self.stopping && !stops {
+            self.happened.push(Happening::Overruled);
+            self.report(number, RobotState::Refused);
+            return;
+        }
         if stops {
+            self.stopping = false;
             // Whatever frames were lost before it: standing still is always safe.
-            self.stop();
+            self.halt();
         } else if let Err(distrust) = trust {
             self.happened.push(Happening::Distrusted(distrust));
             self.drop_queue();

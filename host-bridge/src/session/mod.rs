@@ -3,7 +3,8 @@
 //!
 //! The robot moves only on an execution that the unit made of the present scene and vocabulary, in
 //! sequence and complete ([`crate::unit::Distrust`] says what else there is), and it stops as soon as
-//! the unit is lost. A stop goes to the robot at once, and to the unit as well.
+//! the unit is lost. A stop goes to the robot at once and to the unit as well, and overrules whatever
+//! the unit decides until it has confirmed it.
 
 mod happening;
 mod hearing;
@@ -11,12 +12,14 @@ mod hearing;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
+use deictic_core::category::Category;
 use deictic_core::decide::Question;
 use deictic_core::large::Sentence;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
 use deictic_core::unit::pairing::ANSWER;
 
+use crate::answering::certainly;
 use crate::explain::reasons::Reasons;
 use crate::robot::{CommandId, Robot};
 use crate::scene::Tabletop;
@@ -56,6 +59,9 @@ pub struct Session<'a> {
     question: Option<(u32, Question)>,
     /// Until when a decision is to be there.
     due: Option<Instant>,
+    /// Whether a stop was given that the unit has not yet confirmed: what it decides until then was
+    /// decided on what was said before.
+    stopping: bool,
     /// What is still to be said to the unit, once the robot is ready for more.
     queue: VecDeque<Sentence>,
     /// The reasons that are arriving, and until when they are waited for.
@@ -92,6 +98,7 @@ impl<'a> Session<'a> {
             spoken: Vec::new(),
             question: None,
             due: None,
+            stopping: false,
             queue: VecDeque::new(),
             reasons: None,
             happened: Vec::new(),
@@ -151,7 +158,8 @@ impl<'a> Session<'a> {
     /// [`UnitError`] when the unit is not there; a stop has been carried out all the same.
     pub fn observe(&mut self, sentence: Sentence) -> Result<(), UnitError> {
         if is_stop(&sentence, self.lexicon, &self.configuration.profile) {
-            self.stop();
+            self.halt();
+            self.stopping = true;
         }
         let modality = sentence.modality();
         if self.question.take().is_some() || self.spoken.iter().any(|s| s.modality() == modality) {
@@ -184,8 +192,21 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Stops the robot at once, without asking the unit, and drops what was still to come.
+    /// Stops the robot at once, without asking the unit, and drops what was still to come. A command
+    /// that the unit is about to decide on is overruled.
     pub fn stop(&mut self) {
+        self.halt();
+        let stop = self.lexicon.vocabulary().stop();
+        if self.due.is_some()
+            && let Some(Ok(sentence)) =
+                stop.map(|stop| certainly(Category::ACTION, stop, self.lexicon))
+        {
+            // A unit that cannot be told is lost, and decides nothing.
+            let _ = self.observe(sentence);
+        }
+    }
+
+    fn halt(&mut self) {
         self.robot.stop(self.now());
         self.question = None;
         self.drop_queue();
@@ -207,6 +228,8 @@ impl<'a> Session<'a> {
             self.due = None;
             self.happened.push(Happening::NoDecision);
             self.drop_queue();
+            // Whatever it still had in hand must not come as a surprise later.
+            self.unit.forget();
         }
         if self
             .reasons

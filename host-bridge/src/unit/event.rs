@@ -32,7 +32,7 @@ pub enum Event {
 /// How a unit was lost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Loss {
-    /// The wire failed, with these words of the system's.
+    /// The wire failed, in these words.
     Wire(String),
     /// Nothing was heard for [`super::UNIT_LOST`].
     Silent,
@@ -41,6 +41,8 @@ pub enum Loss {
     Forgetful,
     /// It did not take over the new scene.
     Stale,
+    /// It did not decide when it was to, so whatever it has in hand is taken from it.
+    Late,
     /// It was reached, but could not be loaded, for this reason.
     Unloadable(String),
 }

@@ -151,6 +151,15 @@ impl GestureUnit {
         self.with(|c| c.say(&ToUnit::AskStatistics))
     }
 
+    /// Takes from the unit whatever it has in hand, by opening the conversation anew: nothing that it
+    /// decided before can be heard after.
+    pub fn forget(&mut self) {
+        if self.loaded {
+            let lost = self.lose(Loss::Late);
+            self.happened.push(lost);
+        }
+    }
+
     /// What has happened, waiting up to `patience` for the first of it. Call it often: it also shows
     /// the unit that the host lives, and reaches for a unit that was lost.
     pub fn poll(&mut self, patience: Duration) -> Vec<Event> {
