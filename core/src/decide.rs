@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::category::{Category, CategorySet};
 use crate::feasibility::alignment;
 use crate::intent::{Intent, Parameter};
-use crate::judgement::{Judgement, has};
+use crate::judgement::{Judgement, bit};
 use crate::profile::{Profile, SeveralClear, Threshold};
 use crate::scene::Scene;
 use crate::sentence::ABSENT_BELOW;
@@ -140,15 +140,19 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
             action,
             parameters: Vec::new(),
         };
-        let Some(known) = self.vocabulary.actions().get(usize::from(action)) else {
-            return intent;
+        self.complete(&mut intent);
+        intent
+    }
+
+    /// Adds an action's parameters to an intent without any. Apart, so that [`Room::intent`] has
+    /// nothing to move.
+    #[inline(never)]
+    fn complete(&self, intent: &mut Intent<C>) {
+        let Some(known) = self.vocabulary.actions().get(usize::from(intent.action)) else {
+            return;
         };
-        for q in known
-            .signature
-            .compulsory
-            .union(known.signature.voluntary)
-            .iter()
-        {
+        let expressed = known.signature.compulsory.union(known.signature.voluntary);
+        for q in expressed.iter() {
             let (Some(word), Some(category)) = (self.word(q), Category::from_index(q)) else {
                 continue;
             };
@@ -162,7 +166,6 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
                 });
             }
         }
-        intent
     }
 
     /// No action word: with parameters the action is asked for, without anything a repetition.
@@ -301,7 +304,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
         } else {
             clear | unclear
         };
-        self.fill(&mut question, word, |option| has(open, option));
+        name(&mut question, word.merged(), open);
         question
     }
 
@@ -319,29 +322,38 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
             return question;
         };
         let requirement = known.requirement(category);
-        self.fill(&mut question, word, |option| {
-            self.scene
-                .find(category, option)
-                .is_some_and(|e| alignment(requirement, &e.features) >= FEASIBLE)
-        });
+        let mut fit = 0;
+        for entity in self.scene.entities() {
+            if entity.category == category && alignment(requirement, &entity.features) >= FEASIBLE {
+                fit |= bit(entity.option);
+            }
+        }
+        name(&mut question, word.merged(), fit);
         question
     }
+}
 
-    fn fill(&self, question: &mut Question, word: &CategoryTrace<N>, open: impl Fn(u8) -> bool) {
-        let mut taken = 0_u64;
-        while !question.candidates.is_full() {
-            let mut next = None;
-            let mut top = f32::NEG_INFINITY;
-            for (i, &w) in word.merged().iter().enumerate() {
-                let option = u8::try_from(i).unwrap_or(u8::MAX);
-                if w > top && !has(taken, option) && open(option) {
-                    top = w;
-                    next = Some(option);
-                }
-            }
-            let Some(option) = next else { return };
-            taken |= 1_u64.checked_shl(u32::from(option)).unwrap_or(0);
-            let _ = question.candidates.push(option);
+/// Names the `open` options as candidates, most likely first, the first among equals.
+#[inline(never)]
+fn name(question: &mut Question, merged: &[f32], mut open: u64) {
+    let mut ranks = [(f32::NEG_INFINITY, 0); CANDIDATES];
+    for (option, &w) in (0_u8..).zip(merged) {
+        let is_open = open & 1 != 0;
+        open >>= 1;
+        if !is_open {
+            continue;
         }
+        // It takes the place of the first that is less likely, which moves one down, and so on.
+        let mut next = (w, option);
+        let mut moving = false;
+        for rank in &mut ranks {
+            moving |= next.0 > rank.0;
+            if moving {
+                core::mem::swap(rank, &mut next);
+            }
+        }
+    }
+    for (_, option) in ranks.iter().filter(|(w, _)| *w > f32::NEG_INFINITY) {
+        let _ = question.candidates.push(*option);
     }
 }

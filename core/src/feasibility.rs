@@ -1,9 +1,12 @@
 //! Whether an action fits the words that were used and the things that are there (the paper, eq. 7
 //! and 10; METHOD, section 3).
+//!
+//! What is worked out for every action stays out of line: it has no capacities, so that it is
+//! compiled here, for speed, where its callers are compiled for size with the image.
 
 use crate::category::Category;
-use crate::math::{self, larger};
-use crate::vocabulary::{Requirement, Signature};
+use crate::math;
+use crate::vocabulary::{Action, Requirement, Signature};
 
 /// How far the categories that were expressed are from an action's signature: L of eq. 7.
 ///
@@ -33,18 +36,97 @@ pub fn alpha(mismatch: f32, ln_penalty: f32) -> f32 {
     }
 }
 
-/// How well a thing with these feature likelihoods meets a requirement, in 0..=1: 1 less the
-/// largest misalignment |f - wanted| (eq. 8 and 9). A feature that is not given counts as 0.
-#[must_use]
-pub fn alignment(requirement: Requirement, features: &[f32]) -> f32 {
+/// alpha of every action, into `alphas`; `present` and `ln_penalty` as above.
+#[inline(never)]
+pub fn weigh_signatures(actions: &[Action], present: &[f32], ln_penalty: f32, alphas: &mut [f32]) {
+    // Actions of one signature stand together in most vocabularies: one exponential for all.
+    let mut last = None;
+    for (to, action) in alphas.iter_mut().zip(actions) {
+        let signature = action.signature;
+        *to = match last {
+            Some((known, same)) if known == signature => same,
+            _ => alpha(signature_mismatch(signature, present), ln_penalty),
+        };
+        last = Some((signature, *to));
+    }
+}
+
+/// The largest misalignment |f - wanted| of a thing with these feature likelihoods (eq. 8), or
+/// `limit` as soon as it is no smaller. A feature that is not given counts as 0.
+fn misalignment(requirement: Requirement, features: &[f32], limit: f32) -> f32 {
     let mut worst = 0.0;
     for k in requirement.wanted.iter() {
-        worst = larger(worst, 1.0 - features.get(k).copied().unwrap_or(0.0));
+        let amiss = 1.0 - features.get(k).copied().unwrap_or(0.0);
+        if amiss > worst {
+            worst = amiss;
+            if worst >= limit {
+                return limit;
+            }
+        }
     }
     for k in requirement.unwanted.iter() {
-        worst = larger(worst, features.get(k).copied().unwrap_or(0.0));
+        let amiss = features.get(k).copied().unwrap_or(0.0);
+        if amiss > worst {
+            worst = amiss;
+            if worst >= limit {
+                return limit;
+            }
+        }
     }
-    1.0 - worst
+    worst
+}
+
+/// How well a thing with these feature likelihoods meets a requirement, in 0..=1: 1 less its
+/// largest misalignment (eq. 9).
+#[must_use]
+pub fn alignment(requirement: Requirement, features: &[f32]) -> f32 {
+    1.0 - misalignment(requirement, features, 1.0)
+}
+
+/// How well the best of `things`, each given by its feature likelihoods, meets a requirement: a
+/// category's factor of eq. 10. 0 without things.
+#[must_use]
+pub fn best_alignment(requirement: Requirement, things: &[&[f32]]) -> f32 {
+    let mut least = 1.0;
+    for features in things {
+        least = misalignment(requirement, features, least);
+    }
+    1.0 - least
+}
+
+/// Multiplies into `betas` what each action's requirement on one entity category makes of `things`,
+/// those that may be meant. Actions that need nothing of the category keep what they have.
+#[inline(never)]
+pub fn weigh_requirements(
+    actions: &[Action],
+    category: Category,
+    things: &[&[f32]],
+    betas: &mut [f32],
+) {
+    // Alike actions stand together in most vocabularies.
+    let mut last = None;
+    for (beta, action) in betas.iter_mut().zip(actions) {
+        if !action.signature.compulsory.contains(category.index()) {
+            continue;
+        }
+        let requirement = action.requirement(category);
+        let factor = match last {
+            Some((known, factor)) if known == requirement => factor,
+            _ => best_alignment(requirement, things),
+        };
+        last = Some((requirement, factor));
+        *beta *= factor;
+    }
+}
+
+/// Applies alpha and beta to the merged action word (eq. 5), and keeps in `heard` what it was.
+#[inline(never)]
+pub fn apply_penalties(merged: &mut [f32], heard: &mut [f32], alphas: &[f32], betas: &[f32]) {
+    let penalties = alphas.iter().zip(betas);
+    for ((w, heard), (alpha, beta)) in merged.iter_mut().zip(heard).zip(penalties) {
+        *heard = *w;
+        *w *= alpha * beta;
+    }
 }
 
 #[cfg(test)]

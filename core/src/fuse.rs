@@ -4,20 +4,22 @@
 //! On a Cortex-M4F one M3 decision over the paper's vocabulary stays below 12,000 instructions; the
 //! golden figures are in `tests/expected/`.
 
+use heapless::Vec;
+
 use crate::align::{Alignment, Slot};
 use crate::category::Category;
 use crate::decide::{Decision, decide};
 use crate::entropy;
-use crate::feasibility::{alignment, alpha, signature_mismatch};
-use crate::judgement::{Judgement, judge};
-use crate::math::{self, larger};
-use crate::merge::{Mix, penalise};
+use crate::feasibility::{apply_penalties, weigh_requirements, weigh_signatures};
+use crate::judgement::{has, judge};
+use crate::math;
+use crate::merge::{Mix, penalise, weigh};
 use crate::profile::{BetaScope, Missing, Model, Presence, Profile, ProfileError, Threshold};
 use crate::reference;
 use crate::scene::Scene;
 use crate::sentence::{GESTURE, LANGUAGE, Observations, Word};
 use crate::trace::{CategoryTrace, Trace};
-use crate::vocabulary::{Action, Vocabulary};
+use crate::vocabulary::Vocabulary;
 
 /// All that one decision looks at, besides the profile.
 #[derive(Clone, Copy)]
@@ -66,7 +68,9 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
         scene,
         observations,
     } = situation;
-    let aligned = Alignment::of(observations);
+    let mut aligned = Alignment::NONE;
+    aligned.fill(observations);
+    let mut scratch = [0.0; N];
     for (q, &options) in vocabulary.options().iter().enumerate() {
         let (Some(category), Some(word)) =
             (Category::from_index(q), trace.categories_mut().get_mut(q))
@@ -82,7 +86,7 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
         if slot.iter().all(Option::is_none) {
             continue;
         }
-        merge(situation, category, &slot, profile, mix, word);
+        merge(situation, category, &slot, profile, mix, word, &mut scratch);
         if profile.threshold.is_relative() {
             entropy::normalise(word.merged_and_h().0);
         }
@@ -102,38 +106,42 @@ fn merge<const N: usize, const C: usize, const F: usize, const E: usize, const W
     profile: &Profile,
     mix: &impl Mix,
     word: &mut CategoryTrace<N>,
+    scratch: &mut [f32; N],
 ) {
-    let mut buffer = [0.0; N];
     let mut first = true;
-    for sentence in situation.observations.iter() {
-        let modality = sentence.modality();
-        let said = slot.get(usize::from(modality)).copied().flatten();
-        if said.is_none() && profile.missing == Missing::Skip {
+    for (modality, &said) in (0_u8..).zip(slot) {
+        let silent =
+            || profile.missing == Missing::Skip || situation.observations.get(modality).is_none();
+        if said.is_none() && silent() {
             continue;
         }
         let (merged, h) = word.merged_and_h();
-        let Some((scratch, _)) = buffer.split_at_mut_checked(merged.len()) else {
+        let Some((scratch, _)) = scratch.split_at_mut_checked(merged.len()) else {
             return;
         };
+        let ready = if first { &mut *merged } else { &mut *scratch };
         match said {
-            None => scratch.fill(0.0),
+            None => ready.fill(0.0),
             Some(said) => {
-                for (to, from) in scratch.iter_mut().zip(said.likelihoods()) {
-                    *to = *from;
-                }
+                let mut room;
+                let mut likelihoods = said.likelihoods();
                 if profile.reference_quirks {
-                    soften_one_hot(situation.scene, slot, category, modality, scratch);
+                    room = [0.0; N];
+                    likelihoods =
+                        soften_one_hot(situation.scene, slot, category, modality, said, &mut room);
                 }
                 if profile.penalised {
-                    penalise(scratch, h, profile.least_h);
+                    penalise(likelihoods, h, profile.least_h, ready);
+                } else {
+                    for (to, from) in ready.iter_mut().zip(likelihoods) {
+                        *to = *from;
+                    }
                 }
             }
         }
         let weight = profile.weight(modality);
         if first {
-            for (m, w) in merged.iter_mut().zip(scratch) {
-                *m = weight * *w;
-            }
+            weigh(merged, weight);
             first = false;
         } else {
             mix.mix_in(merged, scratch, weight);
@@ -142,26 +150,36 @@ fn merge<const N: usize, const C: usize, const F: usize, const E: usize, const W
     }
 }
 
-/// The reference's preprocessing of one-hot language words; rare in data, as they arise by clipping
-/// only.
-fn soften_one_hot<const N: usize, const C: usize, const F: usize, const E: usize>(
+/// The reference's preprocessing of one-hot language words, in `room`; rare in data, as they arise
+/// by clipping only.
+#[inline(never)]
+fn soften_one_hot<'a, const N: usize, const C: usize, const F: usize, const E: usize>(
     scene: &Scene<E, F>,
     slot: &Slot<'_, C, N>,
     category: Category,
     modality: u8,
-    word: &mut [f32],
-) {
+    word: &'a Word<C, N>,
+    room: &'a mut [f32; N],
+) -> &'a [f32] {
+    let likelihoods = word.likelihoods();
     let said = slot.get(usize::from(LANGUAGE)).copied().flatten();
     if !said.is_some_and(|said| reference::is_one_hot(said.likelihoods())) {
-        return;
+        return likelihoods;
+    }
+    let Some((softened, _)) = room.split_at_mut_checked(likelihoods.len()) else {
+        return likelihoods;
+    };
+    for (to, from) in softened.iter_mut().zip(likelihoods) {
+        *to = *from;
     }
     let there = |i: usize| u8::try_from(i).is_ok_and(|i| scene.find(category, i).is_some());
     match (category, modality) {
-        (Category::ACTION, LANGUAGE) => reference::lift(word, |_| true),
-        (Category::OBJECT, LANGUAGE) => reference::lift(word, there),
-        (Category::OBJECT, GESTURE) => reference::stretch(word, there),
+        (Category::ACTION, LANGUAGE) => reference::lift(softened, |_| true),
+        (Category::OBJECT, LANGUAGE) => reference::lift(softened, there),
+        (Category::OBJECT, GESTURE) => reference::stretch(softened, there),
         _ => {}
     }
+    softened
 }
 
 /// Whether one modality's likelihoods sum to more than `least`.
@@ -196,36 +214,42 @@ fn weigh_actions<const N: usize, const C: usize, const F: usize, const E: usize>
     }
     let used = vocabulary.options().len();
     let present = present.get(..used).unwrap_or(&present);
-    let mut judged = [Judgement::NOTHING; 2];
-    for (judgement, category) in judged.iter_mut().zip([Category::OBJECT, Category::STORAGE]) {
-        if let Some(word) = trace.category(category) {
-            *judgement = word.judgement;
+    // When no option is clear nothing is ruled out, and anything there may be meant.
+    let meant = |category| match trace.category(category) {
+        Some(word) if profile.beta == BetaScope::Clear && word.judgement.clear != 0 => {
+            word.judgement.clear
         }
-    }
-    let ln_penalty = math::ln(profile.signature_penalty);
-    let (mut last_mismatch, mut last_alpha) = (0.0, 1.0);
+        _ => u64::MAX,
+    };
+    let (meant_objects, meant_storages) = (meant(Category::OBJECT), meant(Category::STORAGE));
     let (word, heard, alphas, betas) = trace.actions_mut();
     let Some(word) = word else { return };
     let (merged, _) = word.merged_and_h();
-    let figures = heard.iter_mut().zip(alphas).zip(betas);
-    for ((w, ((h, a), b)), action) in merged.iter_mut().zip(figures).zip(vocabulary.actions()) {
-        *h = *w;
-        *a = 1.0;
-        *b = 1.0;
-        if matches!(profile.model, Model::M2 | Model::M3) {
-            // Actions of one signature stand together in most vocabularies: one exponential for all.
-            let mismatch = signature_mismatch(action.signature, present);
-            if mismatch != last_mismatch {
-                last_mismatch = mismatch;
-                last_alpha = alpha(mismatch, ln_penalty);
-            }
-            *a = last_alpha;
-        }
-        if profile.model == Model::M3 {
-            *b = beta(action, scene, profile.beta, judged);
-        }
-        *w *= *a * *b;
+    let actions = vocabulary.actions();
+    betas.iter_mut().take(actions.len()).for_each(|b| *b = 1.0);
+    if matches!(profile.model, Model::M2 | Model::M3) {
+        let ln_penalty = math::ln(profile.signature_penalty);
+        weigh_signatures(actions, present, ln_penalty, alphas);
+    } else {
+        alphas.iter_mut().take(actions.len()).for_each(|a| *a = 1.0);
     }
+    if profile.model == Model::M3 {
+        let mut objects = Vec::<&[f32], E>::new();
+        let mut storages = Vec::<&[f32], E>::new();
+        for entity in scene.entities() {
+            let (meant, things) = match entity.category {
+                Category::OBJECT => (meant_objects, &mut objects),
+                _ => (meant_storages, &mut storages),
+            };
+            if has(meant, entity.option) {
+                // There is a place for every thing of a scene.
+                let _ = things.push(&entity.features);
+            }
+        }
+        weigh_requirements(actions, Category::OBJECT, &objects, betas);
+        weigh_requirements(actions, Category::STORAGE, &storages, betas);
+    }
+    apply_penalties(merged, heard, alphas, betas);
     if heard.iter().all(|&h| h <= 0.0) {
         return;
     }
@@ -233,31 +257,6 @@ fn weigh_actions<const N: usize, const C: usize, const F: usize, const E: usize>
         entropy::normalise(merged);
     }
     settle(Category::ACTION, profile, word);
-}
-
-/// beta of eq. 10: how well the best fitting things in question meet an action's requirements.
-fn beta<const F: usize, const E: usize>(
-    action: &Action,
-    scene: &Scene<E, F>,
-    scope: BetaScope,
-    judged: [Judgement; 2],
-) -> f32 {
-    let mut product = 1.0;
-    for (judgement, category) in judged.iter().zip([Category::OBJECT, Category::STORAGE]) {
-        if action.signature.compulsory.contains(category.index()) {
-            let requirement = action.requirement(category);
-            // When no option is clear nothing is ruled out, and anything there may be meant.
-            let any = scope == BetaScope::Any || judgement.clear == 0;
-            product *= scene
-                .entities()
-                .iter()
-                .filter(|e| e.category == category && (any || judgement.is_clear(e.option)))
-                .fold(0.0, |best, e| {
-                    larger(best, alignment(requirement, &e.features))
-                });
-        }
-    }
-    product
 }
 
 /// Whether a word alone clearly says one option, with nothing else to draw on: used for `stop`,

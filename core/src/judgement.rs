@@ -47,45 +47,44 @@ impl Judgement {
 
 /// Whether `option` is in a set of options.
 pub(crate) fn has(set: u64, option: u8) -> bool {
-    1_u64
-        .checked_shl(u32::from(option))
-        .is_some_and(|bit| set & bit != 0)
+    option < 64 && set.wrapping_shr(u32::from(option)) & 1 != 0
+}
+
+/// The set of one option; empty for one that no set can have.
+pub(crate) fn bit(option: u8) -> u64 {
+    1_u64.checked_shl(u32::from(option)).unwrap_or(0)
 }
 
 /// Judges every option of a word by its likelihood `w`, its cross-entropy `h` and the `entropy` of
 /// the whole; gives the threshold that was used beside the judgement.
 #[must_use]
+#[inline(never)]
 pub fn judge(w: &[f32], h: &[f32], entropy: f32, threshold: Threshold) -> (Judgement, f32) {
     let mut judgement = Judgement::NOTHING;
-    let (mut first, mut second) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
     let limit = match threshold {
         Threshold::None => 0.0,
         Threshold::Entropy => entropy,
         Threshold::WhiteNoise => crate::entropy::white_noise(w.len()),
         Threshold::Fixed { clear, .. } => clear,
     };
-    let mut bit = 1_u64;
-    for (i, (&w_i, &h_i)) in w.iter().zip(h).enumerate() {
-        let (clear, noise) = match threshold {
-            Threshold::None => (true, false),
-            // A single option has no entropy to compare with and is clear when it is there at all.
-            _ if w.len() == 1 => (true, false),
-            Threshold::Entropy | Threshold::WhiteNoise => (h_i < limit, w_i <= NOISE),
-            Threshold::Fixed { clear, unclear } => (w_i > clear, w_i <= unclear),
-        };
-        if clear {
-            judgement.clear |= bit;
-        } else if !noise {
-            judgement.unclear |= bit;
+    (judgement.clear, judgement.unclear) = match threshold {
+        Threshold::None => classify(w, h, |_, _| true, |_| false),
+        // A single option has no entropy to compare with and is clear when it is there at all.
+        _ if w.len() == 1 => classify(w, h, |_, _| true, |_| false),
+        Threshold::Entropy | Threshold::WhiteNoise => {
+            classify(w, h, |_, h| h < limit, |w| w <= NOISE)
         }
-        if w_i > first {
+        Threshold::Fixed { clear, unclear } => classify(w, h, |w, _| w > clear, |w| w <= unclear),
+    };
+    let (mut first, mut second) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+    for (i, &w) in w.iter().enumerate() {
+        if w > first {
             second = first;
-            first = w_i;
+            first = w;
             judgement.best = u8::try_from(i).ok();
-        } else if w_i > second {
-            second = w_i;
+        } else if w > second {
+            second = w;
         }
-        bit = bit.wrapping_shl(1);
     }
     judgement.lead = if second.is_finite() {
         first - second
@@ -93,6 +92,26 @@ pub fn judge(w: &[f32], h: &[f32], entropy: f32, threshold: Threshold) -> (Judge
         1.0
     };
     (judgement, limit)
+}
+
+/// The options that are clear, and those that are neither clear nor noise.
+fn classify(
+    w: &[f32],
+    h: &[f32],
+    clear: impl Fn(f32, f32) -> bool,
+    noise: impl Fn(f32) -> bool,
+) -> (u64, u64) {
+    let (mut are_clear, mut are_unclear) = (0, 0);
+    let mut bit = 1_u64;
+    for (&w, &h) in w.iter().zip(h) {
+        if clear(w, h) {
+            are_clear |= bit;
+        } else if !noise(w) {
+            are_unclear |= bit;
+        }
+        bit = bit.wrapping_shl(1);
+    }
+    (are_clear, are_unclear)
 }
 
 #[cfg(test)]

@@ -50,6 +50,7 @@ pub fn larger(a: f32, b: f32) -> f32 {
 
 /// Index of the largest value, the first among equals; `None` for an empty slice or NaN alone.
 #[must_use]
+#[inline(never)]
 pub fn argmax(values: &[f32]) -> Option<usize> {
     let mut best = None;
     let mut top = f32::NEG_INFINITY;

@@ -39,6 +39,7 @@ impl Mix for Merge {
         }
     }
 
+    #[inline(never)]
     fn mix_in(&self, merged: &mut [f32], word: &[f32], weight: f32) {
         let each = merged.iter_mut().zip(word);
         match self {
@@ -49,14 +50,22 @@ impl Mix for Merge {
     }
 }
 
-/// Divides every likelihood by its diagonal cross-entropy, so that what stands out counts for more
-/// (eq. 4). `h` is scratch with one place per option and keeps the cross-entropy; it is held at or
-/// above `least_h` so that a certain option stays finite.
-pub fn penalise(word: &mut [f32], h: &mut [f32], least_h: f32) {
-    entropy::diagonal_cross_entropy(word, h);
-    for (w, h) in word.iter_mut().zip(h) {
-        *w = (*w + entropy::EPSILON) / larger(*h, least_h);
+/// Weighs the first word of a merged one; most weights are 1 and change nothing.
+#[inline(never)]
+pub(crate) fn weigh(word: &mut [f32], weight: f32) {
+    if weight != 1.0 {
+        word.iter_mut().for_each(|w| *w *= weight);
     }
+}
+
+/// Divides every likelihood by its diagonal cross-entropy, so that what stands out counts for more
+/// (eq. 4), into `penalised`. `h` is scratch with one place per option and keeps the cross-entropy;
+/// it is held at or above `least_h` so that a certain option stays finite.
+#[inline(never)]
+pub fn penalise(word: &[f32], h: &mut [f32], least_h: f32, penalised: &mut [f32]) {
+    entropy::with_cross_entropy(word, h, penalised, |penalised, w, h| {
+        *penalised = w / larger(h, least_h);
+    });
 }
 
 #[cfg(test)]
@@ -81,12 +90,11 @@ mod tests {
 
     #[test]
     fn penalisation_sharpens_and_stays_finite() {
-        let mut word = [0.6, 0.3];
         let mut h = [0.0; 2];
-        penalise(&mut word, &mut h, 0.01);
+        let mut word = [0.0; 2];
+        penalise(&[0.6, 0.3], &mut h, 0.01, &mut word);
         assert!(word[0] / word[1] > 2.0);
-        let mut word = [1.0, 0.0];
-        penalise(&mut word, &mut h, 0.01);
+        penalise(&[1.0, 0.0], &mut h, 0.01, &mut word);
         assert_eq!(word[0], 100.0);
         assert!(word[1] < 1e-10);
     }

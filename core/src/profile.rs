@@ -225,6 +225,7 @@ impl Profile {
     ///
     /// # Errors
     /// [`ProfileError`] naming the field.
+    #[inline(never)]
     pub fn check(&self) -> Result<(), ProfileError> {
         let positive = |x: f32| x > 0.0 && x.is_finite();
         if !self.weights.iter().all(|&w| positive(w)) {

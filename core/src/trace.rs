@@ -89,7 +89,7 @@ impl<const C: usize, const N: usize> Trace<C, N> {
         }
     }
 
-    /// Forgets the last decision. Only what it wrote is written again, a tenth of the whole.
+    /// Forgets the last decision. Only what it wrote is written again, less than half of the whole.
     pub fn clear(&mut self) {
         let actions = self
             .categories
@@ -99,15 +99,7 @@ impl<const C: usize, const N: usize> Trace<C, N> {
             figures.iter_mut().take(actions).for_each(|x| *x = 0.0);
         }
         for word in self.categories.iter_mut().filter(|word| word.options > 0) {
-            let (merged, h) = word.merged_and_h();
-            merged.fill(0.0);
-            h.fill(0.0);
-            word.present = 0.0;
-            word.options = 0;
-            word.entropy = 0.0;
-            word.threshold = 0.0;
-            word.quantity = None;
-            word.judgement = Judgement::NOTHING;
+            *word = CategoryTrace::NONE;
         }
     }
 
