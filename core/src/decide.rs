@@ -127,13 +127,6 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
         first
     }
 
-    fn compulsory(&self, action: u8) -> CategorySet {
-        self.vocabulary
-            .actions()
-            .get(usize::from(action))
-            .map_or(CategorySet::EMPTY, |a| a.signature.compulsory)
-    }
-
     /// The action with the best option of every category of its signature that was expressed.
     fn intent(&self, action: u8) -> Intent<C> {
         let mut intent = Intent {
@@ -245,13 +238,27 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
         factor(&self.trace.heard) * factor(&self.trace.alpha) * factor(&self.trace.beta)
     }
 
-    /// What speaks against an intent's parameters.
+    /// What speaks against an intent's parameters: each compulsory one must be there and clear, and
+    /// a voluntary one that was expressed must be clear, or an arm pushes the wrong way.
     fn parameter_doubt(&self, intent: &Intent<C>) -> Option<Question> {
-        for q in self.compulsory(intent.action).iter() {
+        let signature = self
+            .vocabulary
+            .actions()
+            .get(usize::from(intent.action))?
+            .signature;
+        let checked = if self.profile.guarded {
+            signature.compulsory.union(signature.voluntary)
+        } else {
+            signature.compulsory
+        };
+        for q in checked.iter() {
             let category = Category::from_index(q)?;
             let word = self.word(q)?;
             let Some(best) = word.judgement.best else {
-                return Some(self.about(intent.action, category, Reason::Missing));
+                if signature.compulsory.contains(q) {
+                    return Some(self.about(intent.action, category, Reason::Missing));
+                }
+                continue;
             };
             if word.judgement.clear == 0 {
                 return Some(self.question(category, Reason::NoneClear));

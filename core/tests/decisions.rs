@@ -176,6 +176,38 @@ fn a_quantity_is_carried_to_the_intent() {
 }
 
 #[test]
+fn a_voluntary_parameter_that_is_not_clear_is_asked_about() {
+    let mut vocabulary = vocabulary().actions().to_vec();
+    vocabulary[usize::from(MOVE_UP)].signature.voluntary =
+        [Category::DIRECTION].into_iter().collect();
+    let vocabulary =
+        deictic_core::board::Vocabulary::new(&vocabulary, &[5, 4, 1, 3], 10, Some(STOP), 0)
+            .unwrap();
+    let outcome = |direction: &[f32]| {
+        let direction = Word::certain(Category::DIRECTION, direction).unwrap();
+        let said = sentence(LANGUAGE, &[word(Category::ACTION, MOVE_UP), direction]);
+        let mut observations = Observations::new();
+        observations.insert(said, &vocabulary).unwrap();
+        let situation = Situation {
+            vocabulary: &vocabulary,
+            scene: &scene(),
+            observations: &observations,
+        };
+        deictic_core::fuse::fuse(situation, &Profile::PAPER, &mut Trace::new())
+            .unwrap()
+            .outcome
+    };
+    assert!(matches!(outcome(&[0.9, 0.1, 0.1]), Outcome::Execute(_)));
+    let Outcome::Ask(question) = outcome(&[0.5, 0.5, 0.1]) else {
+        panic!("not asked")
+    };
+    assert_eq!(
+        (question.category, question.reason),
+        (Category::DIRECTION, Reason::TooClose)
+    );
+}
+
+#[test]
 fn a_users_operator_mixes() {
     struct Mean;
     impl Mix for Mean {

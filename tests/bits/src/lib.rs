@@ -34,7 +34,7 @@ pub const SAMPLES: u32 = 15_000;
 
 /// [`Bench::hash`] over all [`SAMPLES`], from [`START`]. A change means that some decision has
 /// changed somewhere, if only in its last bit.
-pub const GOLDEN: u64 = 0x9b8f_7ec7_4fec_6116;
+pub const GOLDEN: u64 = 0xb2f2_15a1_4544_1f19;
 
 /// Where a hash begins: the offset of FNV-1a.
 pub const START: u64 = 0xcbf2_9ce4_8422_2325;

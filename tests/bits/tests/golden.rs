@@ -26,7 +26,7 @@ fn portions_give_what_the_whole_gives() {
 fn the_samples_reach_every_outcome() {
     let mut bench = Bench::new();
     let (mut done, mut asked, mut repeated) = (0, 0, 0);
-    for i in 0..2_000 {
+    for i in 0..4_000 {
         bench.sample(i);
         match bench.decide(&Profile::PAPER).unwrap().outcome {
             Outcome::Execute(_) => done += 1,
