@@ -73,6 +73,12 @@ impl<const E: usize, const F: usize> Scene<E, F> {
         }
     }
 
+    /// Empties the table, to be laid anew under another version, in place.
+    pub fn restart(&mut self, version: u32) {
+        self.version = version;
+        self.entities.clear();
+    }
+
     /// Puts one more thing on the table.
     ///
     /// # Errors

@@ -143,87 +143,76 @@ impl<const N: usize, const C: usize, const F: usize> Vocabulary<N, C, F> {
         stop: Option<u8>,
         fingerprint: u32,
     ) -> Result<Self, VocabularyError> {
+        let mut vocabulary = Self::EMPTY;
+        vocabulary.set(actions, parameters, features, stop, fingerprint)?;
+        Ok(vocabulary)
+    }
+
+    /// Becomes the vocabulary that [`Vocabulary::new`] makes of the same, in place.
+    ///
+    /// # Errors
+    /// Those of [`Vocabulary::new`]; it is then as it was.
+    pub fn set(
+        &mut self,
+        actions: &[Action],
+        parameters: &[u8],
+        features: u8,
+        stop: Option<u8>,
+        fingerprint: u32,
+    ) -> Result<(), VocabularyError> {
+        let too_many_actions = VocabularyError::TooManyActions {
+            capacity: saturate(Self::OPTIONS),
+        };
+        let too_many = VocabularyError::TooManyCategories {
+            capacity: saturate(C.min(Category::LIMIT)),
+        };
         if actions.is_empty() {
             return Err(VocabularyError::NoActions);
         }
         if actions.len() > Self::OPTIONS {
-            return Err(VocabularyError::TooManyActions {
-                capacity: saturate(Self::OPTIONS),
-            });
+            return Err(too_many_actions);
         }
-        let actions = Vec::from_slice(actions).map_err(|_| VocabularyError::TooManyActions {
-            capacity: saturate(Self::OPTIONS),
-        })?;
-        let mut options = Vec::new();
-        let too_many = VocabularyError::TooManyCategories {
-            capacity: saturate(C.min(Category::LIMIT)),
-        };
-        options
-            .push(saturate(actions.len()))
-            .map_err(|_| too_many)?;
-        for (i, &count) in parameters.iter().enumerate() {
-            let category = Category::from_index(i.saturating_add(1)).ok_or(too_many)?;
+        for (&count, q) in parameters.iter().zip(1..) {
+            let category = Category::from_index(q).ok_or(too_many)?;
             if usize::from(count) > Self::OPTIONS {
                 return Err(VocabularyError::TooManyOptions {
                     category,
                     capacity: saturate(Self::OPTIONS),
                 });
             }
-            options.push(count).map_err(|_| too_many)?;
+        }
+        if parameters.len() >= C {
+            return Err(too_many);
         }
         if usize::from(features) > F.min(32) {
             return Err(VocabularyError::TooManyFeatures {
                 capacity: saturate(F.min(32)),
             });
         }
-        let vocabulary = Self {
-            actions,
-            options,
-            features,
-            stop,
-            fingerprint,
-        };
-        vocabulary.check_actions()?;
-        Ok(vocabulary)
+        check_actions(actions, parameters, features, stop)?;
+        self.clear();
+        self.actions
+            .extend_from_slice(actions)
+            .map_err(|_| too_many_actions)?;
+        self.options
+            .push(saturate(actions.len()))
+            .map_err(|_| too_many)?;
+        self.options
+            .extend_from_slice(parameters)
+            .map_err(|_| too_many)?;
+        self.features = features;
+        self.stop = stop;
+        self.fingerprint = fingerprint;
+        Ok(())
     }
 
-    fn check_actions(&self) -> Result<(), VocabularyError> {
-        let mut known = CategorySet::EMPTY;
-        for (i, &count) in self.options.iter().enumerate().skip(1) {
-            if count > 0 {
-                known = known.with(i);
-            }
-        }
-        for (i, action) in self.actions.iter().enumerate() {
-            let at = saturate(i);
-            let Signature {
-                compulsory,
-                voluntary,
-            } = action.signature;
-            if compulsory.union(voluntary).0 & !known.0 != 0 {
-                return Err(VocabularyError::UnknownCategory { action: at });
-            }
-            if !compulsory.intersection(voluntary).is_empty() {
-                return Err(VocabularyError::Contradiction { action: at });
-            }
-            for need in [action.object, action.storage] {
-                if !need
-                    .wanted
-                    .union(need.unwanted)
-                    .fits(usize::from(self.features))
-                {
-                    return Err(VocabularyError::UnknownFeature { action: at });
-                }
-                if !need.wanted.intersection(need.unwanted).is_empty() {
-                    return Err(VocabularyError::Contradiction { action: at });
-                }
-            }
-        }
-        match self.stop.map(|stop| self.actions.get(usize::from(stop))) {
-            None => Ok(()),
-            Some(Some(action)) if action.signature.compulsory.is_empty() => Ok(()),
-            Some(_) => Err(VocabularyError::BadStop),
-        }
+    /// Becomes [`Vocabulary::EMPTY`], in place.
+    pub fn clear(&mut self) {
+        self.actions.clear();
+        self.options.clear();
+        self.features = 0;
+        self.stop = None;
+        self.fingerprint = 0;
     }
 
     /// The actions, in the order of an action word's likelihoods.
@@ -262,6 +251,47 @@ impl<const N: usize, const C: usize, const F: usize> Vocabulary<N, C, F> {
     #[must_use]
     pub fn fingerprint(&self) -> u32 {
         self.fingerprint
+    }
+}
+
+/// Checks what actions take and need against what there is.
+fn check_actions(
+    actions: &[Action],
+    parameters: &[u8],
+    features: u8,
+    stop: Option<u8>,
+) -> Result<(), VocabularyError> {
+    let mut known = CategorySet::EMPTY;
+    for (&count, q) in parameters.iter().zip(1..) {
+        if count > 0 {
+            known = known.with(q);
+        }
+    }
+    for (i, action) in actions.iter().enumerate() {
+        let at = saturate(i);
+        let Signature {
+            compulsory,
+            voluntary,
+        } = action.signature;
+        if compulsory.union(voluntary).0 & !known.0 != 0 {
+            return Err(VocabularyError::UnknownCategory { action: at });
+        }
+        if !compulsory.intersection(voluntary).is_empty() {
+            return Err(VocabularyError::Contradiction { action: at });
+        }
+        for need in [action.object, action.storage] {
+            if !need.wanted.union(need.unwanted).fits(usize::from(features)) {
+                return Err(VocabularyError::UnknownFeature { action: at });
+            }
+            if !need.wanted.intersection(need.unwanted).is_empty() {
+                return Err(VocabularyError::Contradiction { action: at });
+            }
+        }
+    }
+    match stop.map(|stop| actions.get(usize::from(stop))) {
+        None => Ok(()),
+        Some(Some(action)) if action.signature.compulsory.is_empty() => Ok(()),
+        Some(_) => Err(VocabularyError::BadStop),
     }
 }
 

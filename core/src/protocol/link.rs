@@ -111,6 +111,7 @@ impl<const FRAME: usize> Link<FRAME> {
 
     /// Takes one byte, and gives the message that it completes, if it does and the message is to be
     /// taken. Everything else is counted.
+    #[inline(never)]
     pub fn receive<M: DeserializeOwned + Opening>(&mut self, byte: u8) -> Option<Received<M>> {
         let counters = &mut self.counters;
         let contents = match self.reader.push(byte)? {

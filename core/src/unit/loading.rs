@@ -10,8 +10,10 @@ use crate::vocabulary::{Action, Vocabulary};
 /// What is in force and what is arriving.
 #[derive(Debug)]
 pub struct Loading<const N: usize, const C: usize, const F: usize, const E: usize> {
-    vocabulary: Option<Vocabulary<N, C, F>>,
-    scene: Option<Scene<E, F>>,
+    /// Without actions: there is none.
+    vocabulary: Vocabulary<N, C, F>,
+    /// Of version 0: there is none.
+    scene: Scene<E, F>,
     actions: Vec<Action, N>,
     arriving: Scene<E, F>,
 }
@@ -29,23 +31,31 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            vocabulary: None,
-            scene: None,
+            vocabulary: Vocabulary::EMPTY,
+            scene: Scene::new(0),
             actions: Vec::new(),
             arriving: Scene::new(0),
         }
     }
 
+    /// Nothing in force, nothing arriving, in place.
+    pub fn clear(&mut self) {
+        self.vocabulary.clear();
+        self.scene.restart(0);
+        self.actions.clear();
+        self.arriving.restart(0);
+    }
+
     /// The vocabulary in force.
     #[must_use]
     pub fn vocabulary(&self) -> Option<&Vocabulary<N, C, F>> {
-        self.vocabulary.as_ref()
+        Some(&self.vocabulary).filter(|vocabulary| !vocabulary.actions().is_empty())
     }
 
     /// The scene in force.
     #[must_use]
     pub fn scene(&self) -> Option<&Scene<E, F>> {
-        self.scene.as_ref()
+        Some(&self.scene).filter(|scene| scene.version() > 0)
     }
 
     /// Takes a part of a vocabulary; the last one puts it in force and the scene, which spoke the
@@ -68,7 +78,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
         if self.actions.len() < usize::from(part.total) {
             return Ok(None);
         }
-        let new = Vocabulary::new(
+        let set = self.vocabulary.set(
             &self.actions,
             &part.parameters,
             part.features,
@@ -76,8 +86,8 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
             part.fingerprint,
         );
         self.actions.clear();
-        self.vocabulary = Some(new.map_err(Fault::Vocabulary)?);
-        self.scene = None;
+        set.map_err(Fault::Vocabulary)?;
+        self.scene.restart(0);
         Ok(Some(Loaded::Vocabulary(part.fingerprint)))
     }
 
@@ -87,8 +97,8 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
     /// A [`Fault`]: there is no vocabulary, the scene is not newer, the part is out of order, or a
     /// thing cannot be. The old scene stays in force.
     pub fn take_scene(&mut self, part: &ScenePart<F>) -> Result<Option<Loaded>, Fault> {
-        let vocabulary = self.vocabulary.as_ref().ok_or(Fault::NoVocabulary)?;
-        let held = self.scene.as_ref().map_or(0, Scene::version);
+        self.vocabulary().ok_or(Fault::NoVocabulary)?;
+        let held = self.scene.version();
         if part.version <= held {
             return Err(Fault::OldScene {
                 held,
@@ -96,7 +106,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
             });
         }
         if part.first == 0 {
-            self.arriving = Scene::new(part.version);
+            self.arriving.restart(part.version);
         }
         if part.version != self.arriving.version() {
             return Err(Fault::PartOutOfOrder {
@@ -107,13 +117,14 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
         in_order(self.arriving.entities().len(), part.first)?;
         for entity in &part.entities {
             self.arriving
-                .push(entity.clone(), vocabulary)
+                .push(entity.clone(), &self.vocabulary)
                 .map_err(Fault::Scene)?;
         }
         if self.arriving.entities().len() < usize::from(part.total) {
             return Ok(None);
         }
-        self.scene = Some(core::mem::replace(&mut self.arriving, Scene::new(0)));
+        core::mem::swap(&mut self.scene, &mut self.arriving);
+        self.arriving.restart(0);
         Ok(Some(Loaded::Scene(part.version)))
     }
 }

@@ -118,7 +118,8 @@ impl<
         }
     }
 
-    /// A message at a time is on the stack, and only here.
+    /// A message at a time is on the stack, and only here: what decodes it and what takes it are
+    /// functions of their own, which use the same stack in turn.
     #[inline(never)]
     fn take_byte(&mut self, now: Micros, byte: u8) {
         if let Some(Received { message, .. }) = self.link.receive(byte) {
@@ -192,6 +193,7 @@ impl<
         self.send(&ToHost::Fault(fault));
     }
 
+    #[inline(never)]
     fn take(&mut self, now: Micros, message: &ToUnit<N, C, F>) {
         if let ToUnit::Hello(host) = message {
             self.greet(now, host);
@@ -229,7 +231,7 @@ impl<
     /// Opens a conversation: everything of an earlier one is forgotten.
     fn greet(&mut self, now: Micros, host: &Hello) {
         self.outbox.clear();
-        self.loading = Loading::new();
+        self.loading.clear();
         self.pairing.clear();
         self.configuration = Configuration::DEFAULT;
         self.moving = false;
