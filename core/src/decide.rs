@@ -344,7 +344,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
 #[inline(never)]
 fn name(question: &mut Question, merged: &[f32], mut open: u64) {
     let mut ranks = [(f32::NEG_INFINITY, 0); CANDIDATES];
-    for (option, &w) in (0_u8..).zip(merged) {
+    for (option, &w) in merged.iter().enumerate() {
         let is_open = open & 1 != 0;
         open >>= 1;
         if !is_open {
@@ -361,6 +361,7 @@ fn name(question: &mut Question, merged: &[f32], mut open: u64) {
         }
     }
     for (_, option) in ranks.iter().filter(|(w, _)| *w > f32::NEG_INFINITY) {
-        let _ = question.candidates.push(*option);
+        // There are as many ranks as candidates, and as many options as an open set has bits.
+        let _ = question.candidates.push(*option as u8);
     }
 }

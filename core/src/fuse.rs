@@ -11,7 +11,7 @@ use crate::category::Category;
 use crate::decide::{Decision, decide};
 use crate::entropy;
 use crate::feasibility::{apply_penalties, weigh_requirements, weigh_signatures};
-use crate::judgement::{has, judge};
+use crate::judgement::{Judgement, has, judge};
 use crate::math;
 use crate::merge::{Mix, penalise, weigh};
 use crate::profile::{BetaScope, Missing, Model, Presence, Profile, ProfileError, Threshold};
@@ -61,8 +61,7 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
     mix: &impl Mix,
     trace: &mut Trace<C, N>,
 ) -> Result<Decision<C>, ProfileError> {
-    trace.clear();
-    profile.check()?;
+    profile.check().inspect_err(|_| trace.clear())?;
     let Situation {
         vocabulary,
         scene,
@@ -71,6 +70,7 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
     let mut aligned = Alignment::NONE;
     aligned.fill(observations);
     let mut scratch = [0.0; N];
+    trace.restart(vocabulary.options());
     for (q, &options) in vocabulary.options().iter().enumerate() {
         let (Some(category), Some(word)) =
             (Category::from_index(q), trace.categories_mut().get_mut(q))
@@ -78,12 +78,19 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
             break;
         };
         let slot = aligned.slot(category);
+        let spoken = slot.iter().any(Option::is_some);
+        let whole = |word: &&Word<C, N>| word.likelihoods().len() == usize::from(options);
+        if !(spoken && slot.iter().flatten().all(whole)) {
+            // Only whole words write over all that the last decision left.
+            *word = CategoryTrace::NONE;
+        }
         word.options = options;
+        word.quantity = None;
         word.present = match profile.presence {
             Presence::Probability => aligned.presence(category),
             Presence::Sum(least) => f32::from(u8::from(visible(&slot, least))),
         };
-        if slot.iter().all(Option::is_none) {
+        if !spoken {
             continue;
         }
         merge(situation, category, &slot, profile, mix, word, &mut scratch);
@@ -251,6 +258,12 @@ fn weigh_actions<const N: usize, const C: usize, const F: usize, const E: usize>
     }
     apply_penalties(merged, heard, alphas, betas);
     if heard.iter().all(|&h| h <= 0.0) {
+        word.entropy = 0.0;
+        word.threshold = 0.0;
+        word.judgement = Judgement::NOTHING;
+        if !profile.penalised {
+            word.merged_and_h().1.fill(0.0);
+        }
         return;
     }
     if profile.threshold.is_relative() && !profile.reference_quirks {

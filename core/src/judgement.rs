@@ -60,14 +60,13 @@ pub(crate) fn bit(option: u8) -> u64 {
 #[must_use]
 #[inline(never)]
 pub fn judge(w: &[f32], h: &[f32], entropy: f32, threshold: Threshold) -> (Judgement, f32) {
-    let mut judgement = Judgement::NOTHING;
     let limit = match threshold {
         Threshold::None => 0.0,
         Threshold::Entropy => entropy,
         Threshold::WhiteNoise => crate::entropy::white_noise(w.len()),
         Threshold::Fixed { clear, .. } => clear,
     };
-    (judgement.clear, judgement.unclear) = match threshold {
+    let judgement = match threshold {
         Threshold::None => classify(w, h, |_, _| true, |_| false),
         // A single option has no entropy to compare with and is clear when it is there at all.
         _ if w.len() == 1 => classify(w, h, |_, _| true, |_| false),
@@ -76,8 +75,27 @@ pub fn judge(w: &[f32], h: &[f32], entropy: f32, threshold: Threshold) -> (Judge
         }
         Threshold::Fixed { clear, unclear } => classify(w, h, |w, _| w > clear, |w| w <= unclear),
     };
+    (judgement, limit)
+}
+
+/// Judges every option by whether it is clear, given its likelihood and cross-entropy, and if not,
+/// whether it is noise.
+fn classify(
+    w: &[f32],
+    h: &[f32],
+    clear: impl Fn(f32, f32) -> bool,
+    noise: impl Fn(f32) -> bool,
+) -> Judgement {
+    let mut judgement = Judgement::NOTHING;
     let (mut first, mut second) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-    for (i, &w) in w.iter().enumerate() {
+    let mut bit = 1_u64;
+    for (i, (&w, &h)) in w.iter().zip(h).enumerate() {
+        if clear(w, h) {
+            judgement.clear |= bit;
+        } else if !noise(w) {
+            judgement.unclear |= bit;
+        }
+        bit = bit.wrapping_shl(1);
         if w > first {
             second = first;
             first = w;
@@ -91,27 +109,7 @@ pub fn judge(w: &[f32], h: &[f32], entropy: f32, threshold: Threshold) -> (Judge
     } else {
         1.0
     };
-    (judgement, limit)
-}
-
-/// The options that are clear, and those that are neither clear nor noise.
-fn classify(
-    w: &[f32],
-    h: &[f32],
-    clear: impl Fn(f32, f32) -> bool,
-    noise: impl Fn(f32) -> bool,
-) -> (u64, u64) {
-    let (mut are_clear, mut are_unclear) = (0, 0);
-    let mut bit = 1_u64;
-    for (&w, &h) in w.iter().zip(h) {
-        if clear(w, h) {
-            are_clear |= bit;
-        } else if !noise(w) {
-            are_unclear |= bit;
-        }
-        bit = bit.wrapping_shl(1);
-    }
-    (are_clear, are_unclear)
+    judgement
 }
 
 #[cfg(test)]

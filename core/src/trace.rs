@@ -103,6 +103,16 @@ impl<const C: usize, const N: usize> Trace<C, N> {
         }
     }
 
+    /// Forgets what a decision over categories of so many options does not write over, the words it
+    /// does not speak of aside: nothing at all when the last one was over the same.
+    pub(crate) fn restart(&mut self, options: &[u8]) {
+        let mut options = options.iter();
+        let mut words = self.categories.iter();
+        if words.any(|word| word.options != options.next().copied().unwrap_or(0)) {
+            self.clear();
+        }
+    }
+
     /// All categories, actions first.
     #[must_use]
     pub fn categories(&self) -> &[CategoryTrace<N>] {

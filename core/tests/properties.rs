@@ -121,6 +121,17 @@ proptest! {
     }
 
     #[test]
+    fn a_trace_keeps_nothing_of_an_earlier_decision(
+        scene in any_scene(), a in any_sentence(0), b in any_sentence(1), c in any_sentence(0),
+        earlier in any_profile(), profile in any_profile(),
+    ) {
+        let mut trace = Trace::new();
+        prop_assert!(decide_again(&scene, &[a, b], &earlier, &mut trace).is_ok());
+        let again = decide_again(&scene, std::slice::from_ref(&c), &profile, &mut trace);
+        prop_assert_eq!((again, trace), decide_in(&scene, &[c], &profile));
+    }
+
+    #[test]
     fn relative_words_sum_to_one_or_are_absent(
         scene in any_scene(), a in any_sentence(0), b in any_sentence(1),
     ) {

@@ -154,18 +154,28 @@ pub fn decide_in(
     sentences: &[Sentence],
     profile: &Profile,
 ) -> (Result<Decision<8>, ProfileError>, Trace) {
+    let mut trace = Trace::new();
+    (decide_again(scene, sentences, profile, &mut trace), trace)
+}
+
+/// Decides with a trace that may have been used before.
+pub fn decide_again(
+    scene: &Scene,
+    sentences: &[Sentence],
+    profile: &Profile,
+    trace: &mut Trace,
+) -> Result<Decision<8>, ProfileError> {
     let mut observations = Observations::new();
     for s in sentences {
         observations.insert(s.clone(), &vocabulary()).unwrap();
     }
-    let mut trace = Trace::new();
     let vocabulary = vocabulary();
     let situation = Situation {
         vocabulary: &vocabulary,
         scene,
         observations: &observations,
     };
-    (fuse(situation, profile, &mut trace), trace)
+    fuse(situation, profile, trace)
 }
 
 /// (action, object, storage) of what is to be executed.
