@@ -4,7 +4,7 @@
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-use crate::category::{Category, CategorySet};
+use crate::category::Category;
 use crate::feasibility::alignment;
 use crate::intent::{Intent, Parameter};
 use crate::judgement::{Judgement, bit};
