@@ -6,10 +6,16 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
-/// The repository's root: the directory above this crate's.
-pub fn root() -> &'static Path {
-    let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    crate_root.parent().unwrap_or(crate_root)
+/// The repository's root: the directory above this crate's. Cargo names the crate's when it runs this program; what was
+/// compiled in may be that of another checkout that shares a target directory.
+pub fn root() -> PathBuf {
+    let crate_root =
+        std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
+    let crate_root = PathBuf::from(crate_root);
+    crate_root
+        .parent()
+        .map(Path::to_owned)
+        .unwrap_or(crate_root)
 }
 
 /// The cargo that runs this program, else the one on PATH.
