@@ -187,7 +187,7 @@ fn fitted(performances: &[&Performance]) -> Scale {
         terms.sum()
     };
     let shape = (1..60)
-        .map(|n| 0.005 * 1.08_f32.powi(n))
+        .map(|n| (0.005 * 1.08_f64.powi(n)) as f32)
         .min_by(|a, b| loss(*a).total_cmp(&loss(*b)))
         .unwrap_or(ASSUMED.shape);
     Scale {
