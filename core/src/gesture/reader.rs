@@ -274,12 +274,13 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
             return self.close(context);
         }
         if shape == Shape::Point as u8 {
-            if matches!(self.open, Some(Open::Target(_))) {
-                return None;
+            // No closed hand since the hand pointed last: the same word, and the last try counts.
+            let again = matches!(self.open, Some(Open::Target(_)));
+            if !again {
+                self.close(context);
             }
-            self.close(context);
             self.open = Some(Open::Target(Target::new(clock)));
-            return Some(Event::Opened(self.count()));
+            return (!again).then(|| Event::Opened(self.count()));
         }
         let action = context.mapping.action(Gesture::Shape(shape))?;
         let mut likelihoods = [0.0; N];

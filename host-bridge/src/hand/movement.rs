@@ -284,13 +284,23 @@ impl Manner {
 
     /// A hand that stays where it is, more or less, for so many ms.
     pub fn rest(&self, milliseconds: f64, rate: f64, rng: &mut impl Rng) -> Vec<Sample> {
-        let to: Point = std::array::from_fn(|_| normal(rng, 0.0, 6.0));
-        let mut samples = self.walk(&[[0.0; 3], to], rate, rng);
-        let last = samples.last().map_or(1.0, |s| s.0.max(1.0));
-        for (time, _) in &mut samples {
-            *time *= milliseconds / last;
+        let phases: [f64; 6] = std::array::from_fn(|_| rng.random_range(0.0..6.3));
+        let mut samples = Vec::new();
+        let mut t = 0.0;
+        while t <= milliseconds {
+            samples.push((t, self.unsteady([0.0; 3], t, &phases, rng)));
+            t += 1000.0 / rate;
         }
         samples
+    }
+
+    /// The palm that is meant to be at `place`: it wanders, trembles, and the sensor adds its own.
+    fn unsteady(&self, place: Point, t: f64, phases: &[f64; 6], rng: &mut impl Rng) -> Point {
+        std::array::from_fn(|i| {
+            let slow = self.wander * (t * 0.006 + phases[i]).sin();
+            let tremor = 0.12 * self.wander * (t * 0.055 + phases[i + 3]).sin();
+            place[i] + slow + tremor + normal(rng, 0.0, 0.2)
+        })
     }
 
     /// Along a polyline, slower where it turns (the two-thirds power law's effect), smoothly from
@@ -324,12 +334,9 @@ impl Manner {
                 .clamp(1, points.len() - 1);
             let span = (times[at] - times[at - 1]).max(1e-6);
             let share = (t - times[at - 1]) / span;
-            let place: Point = std::array::from_fn(|i| {
-                let straight = points[at - 1][i] + share * (points[at][i] - points[at - 1][i]);
-                let slow = self.wander * (t * 0.006 + phases[i]).sin();
-                let tremor = 0.12 * self.wander * (t * 0.055 + phases[i + 3]).sin();
-                straight + slow + tremor + normal(rng, 0.0, 0.4)
-            });
+            let (from, to) = (points[at - 1], points[at]);
+            let meant = std::array::from_fn(|i| from[i] + share * (to[i] - from[i]));
+            let place = self.unsteady(meant, t, &phases, rng);
             // One frame in thirty is lost, and now and then a few in a row.
             if !rng.random_bool(0.033) {
                 samples.push((t + normal(rng, 0.0, 0.3), place));

@@ -199,7 +199,13 @@ pub fn of_shape(shape: Shape, anatomy: &Anatomy, rng: &mut impl Rng) -> Posture 
             let thumb = if rng.random_bool(0.2) { Half } else { Straight };
             [thumb, Straight, Straight, Straight, Straight]
         }
-        Shape::ThumbsUp => [Straight, Folded, Folded, Folded, Folded],
+        Shape::ThumbsUp => {
+            let mut posture = hand([Straight, Folded, Folded, Folded, Folded], rng);
+            // A thumb that lies nearer belongs to a fist.
+            posture[0].aside = degrees(rng, 45.0, 80.0);
+            posture[0].knuckle = degrees(rng, -12.0, 22.0);
+            return posture;
+        }
         Shape::None => return of_none(anatomy, rng),
     };
     loop {
@@ -209,6 +215,21 @@ pub fn of_shape(shape: Shape, anatomy: &Anatomy, rng: &mut impl Rng) -> Posture 
             return posture;
         }
     }
+}
+
+/// How a person holds the hand for this shape who means to be understood: of many ways, the one most
+/// like the others.
+pub fn plain(shape: Shape, anatomy: &Anatomy, rng: &mut impl Rng) -> Posture {
+    let ways: Vec<Posture> = (0..31).map(|_| of_shape(shape, anatomy, rng)).collect();
+    let apart = |a: &Posture, b: &Posture| -> f64 {
+        let angles = |p: &Posture| p.map(|b| [b.knuckle, b.middle, b.outer, b.aside]);
+        let (a, b) = (angles(a), angles(b));
+        let pairs = a.as_flattened().iter().zip(b.as_flattened());
+        pairs.map(|(x, y)| (x - y).abs()).sum()
+    };
+    let strange = |way: &Posture| -> f64 { ways.iter().map(|other| apart(way, other)).sum() };
+    let most_like = ways.iter().min_by(|a, b| strange(a).total_cmp(&strange(b)));
+    most_like.copied().unwrap_or_default()
 }
 
 /// A hand that shows none of the shapes: fingers that no shape holds straight together, or fingers
