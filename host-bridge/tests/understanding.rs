@@ -1,6 +1,6 @@
 //! Whatever comes in is answered, and never crashes.
 
-use deictic::language::{LONGEST, LanguageError, Listener, Uncertainty};
+use deictic::language::{LONGEST, LanguageError, Listener, Spoken, Uncertainty};
 use deictic::vocabulary::Lexicon;
 use deictic_core::category::Category;
 use deictic_core::fuse::says_clearly;
@@ -119,7 +119,63 @@ fn one_hot_words_have_one_constant_besides() {
     }
 }
 
+#[test]
+fn a_recogniser_is_plugged_in_by_its_lines() {
+    let lexicon = lexicon();
+    let listener = Listener::new(&lexicon).unwrap();
+    let object = |line: &str| {
+        let utterance = listener.hear(&Spoken::read(line).unwrap()).unwrap();
+        let words = utterance.commands[0].sentence.words().to_vec();
+        let word = words
+            .iter()
+            .find(|w| w.category() == Some(Category::OBJECT))
+            .unwrap();
+        word.likelihoods().to_vec()
+    };
+    let of = |name| usize::from(lexicon.option(Category::OBJECT, name).unwrap());
+    let (cup, can) = (of("cup"), of("can"));
+    let plain = object("pick the cup");
+    assert_eq!(object(r#"{"text": "pick the cup"}"#), plain);
+    let torn = object(
+        r#"{"alternatives": [{"text": "pick the cup", "confidence": 0.6}, {"text": "pick the can", "confidence": 0.4}]}"#,
+    );
+    assert!(torn[cup] > torn[can] && torn[can] > 0.35 && plain[can] < 0.1);
+    let scores = object(
+        r#"{"alternatives": [{"text": "pick the cup", "confidence": 200.5}, {"text": "pick the can", "confidence": 190.0}]}"#,
+    );
+    assert!(scores[can] < 0.1);
+    assert_eq!(Spoken::read("").unwrap_err(), LanguageError::Empty);
+    assert_eq!(
+        Spoken::read(r#"{"alternatives": []}"#).unwrap_err(),
+        LanguageError::Empty
+    );
+}
+
+#[test]
+fn what_may_have_been_forbidden_is_not_done() {
+    let lexicon = lexicon();
+    let listener = Listener::new(&lexicon).unwrap();
+    let heard = |not: f64| {
+        let alternatives = vec![
+            ("pick the cup".to_owned(), 1.0 - not),
+            ("don't pick the cup".to_owned(), not),
+        ];
+        listener.hear(&Spoken { alternatives })
+    };
+    assert_eq!(heard(0.1).unwrap().commands.len(), 1);
+    assert!(matches!(heard(0.4), Err(LanguageError::Unclear { .. })));
+    assert!(heard(0.7).unwrap().commands.is_empty());
+}
+
 proptest! {
+    #[test]
+    fn any_line_of_a_recogniser_is_answered(line in "\\PC{0,80}") {
+        let lexicon = lexicon();
+        if let Ok(spoken) = Spoken::read(&line) {
+            let _ = Listener::new(&lexicon).unwrap().hear(&spoken);
+        }
+    }
+
     #[test]
     fn any_text_is_answered(text in "\\PC{0,80}") {
         let lexicon = lexicon();

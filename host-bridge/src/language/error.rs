@@ -71,6 +71,12 @@ pub enum LanguageError {
         /// How many may be.
         limit: usize,
     },
+    /// Heard alternatives of which too many are no commands.
+    #[error("\"{text}\" may not have been a command")]
+    Unclear {
+        /// The likeliest alternative.
+        text: String,
+    },
     /// The vocabulary asks for a language that no pack was found for.
     #[error("no language pack \"{language}\"")]
     NoPack {
@@ -112,6 +118,7 @@ impl LanguageError {
             Self::NoUnit { .. } => "say the unit too, as in \"5 cm\" or \"30 degrees\"".into(),
             Self::BadQuantity { .. } => "give a number below a million".into(),
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
+            Self::Unclear { .. } => "say it again".into(),
             Self::NoPack { .. } => {
                 "use language = \"en\" or \"cs\" in the vocabulary, or give a pack's file".into()
             }

@@ -20,7 +20,9 @@ pub mod pack;
 mod place;
 mod quantity;
 mod read;
+pub mod speech;
 mod split;
+mod spoken;
 pub mod stream;
 mod table;
 mod token;
@@ -32,6 +34,7 @@ use deictic_core::large::Sentence;
 pub use compose::{SetAside, Why};
 pub use error::{LONGEST, LanguageError};
 pub use likeness::{Ear, Sound};
+pub use spoken::Spoken;
 pub use token::text_of;
 pub use utter::Uncertainty;
 

@@ -156,6 +156,24 @@ pub struct Tags {
     pub plain: Vec<String>,
 }
 
+/// What a recogniser that needs a grammar listens for, besides the vocabulary's words.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Speech {
+    /// Around a sentence.
+    pub polite: Vec<String>,
+    /// In front of what is not to be done.
+    pub not: Vec<String>,
+    /// Before names.
+    pub determiner: Vec<String>,
+    /// In place of an object's name.
+    pub pointed: Vec<String>,
+    /// Before a storage.
+    pub preposition: Vec<String>,
+    /// In place of a preposition and a storage.
+    pub place: Vec<String>,
+}
+
 /// The grammar words of a language.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -193,6 +211,8 @@ pub struct Pack {
     /// Words for options.
     #[serde(default)]
     pub option: Vec<OptionWords>,
+    /// For recognisers; without it the language can be typed only.
+    pub speech: Option<Speech>,
 }
 
 impl Pack {

@@ -1,0 +1,202 @@
+//! What a recogniser heard: several texts, each with a probability, mixed into one utterance whose
+//! words are as uncertain as the hearing was.
+//!
+//! Any recogniser can be plugged in that writes one line per utterance: a plain text, or JSON as Vosk
+//! gives it, `{"alternatives": [{"text": "pick the cup", "confidence": 0.8}]}` or `{"text": ...}`.
+
+use deictic_core::category::Category;
+use deictic_core::large::{OPTIONS, Sentence, Word};
+use deictic_core::sentence::LANGUAGE;
+use serde::Deserialize;
+
+use super::error::LanguageError;
+use super::{Command, Listener, Utterance};
+
+/// Above this share of alternatives that are no commands the person is asked to say it again: one
+/// alternative in four that forbids is no basis for moving.
+const IDLE: f64 = 0.25;
+
+/// What was heard of one utterance.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spoken {
+    /// The texts with their probabilities, 0..=1, summing to 1.
+    pub alternatives: Vec<(String, f64)>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Line {
+    Many { alternatives: Vec<Alternative> },
+    One(Alternative),
+}
+
+#[derive(Deserialize)]
+struct Alternative {
+    text: String,
+    confidence: Option<f64>,
+}
+
+impl Spoken {
+    /// Reads a recogniser's line. Confidences between 0 and 1 are probabilities, others logarithms.
+    ///
+    /// # Errors
+    /// [`LanguageError::Empty`] for a line that says nothing.
+    pub fn read(line: &str) -> Result<Self, LanguageError> {
+        let heard = match serde_json::from_str(line) {
+            Ok(Line::Many { alternatives }) => alternatives,
+            Ok(Line::One(alternative)) => vec![alternative],
+            Err(_) => vec![Alternative {
+                text: line.to_owned(),
+                confidence: None,
+            }],
+        };
+        let figure = |a: &Alternative| a.confidence.filter(|c| c.is_finite()).unwrap_or(1.0);
+        let shares = heard.iter().all(|a| (0.0..=1.0).contains(&figure(a)));
+        let heard = heard.iter().filter(|a| !a.text.trim().is_empty());
+        let figures = heard.map(|a| (a.text.clone(), figure(a)));
+        if shares {
+            Self::of_shares(figures.collect())
+        } else {
+            Self::of_scores(figures.collect(), 1.0)
+        }
+    }
+
+    /// Texts with scores whose difference, divided by `scale`, is the logarithm of how much more
+    /// probable one is.
+    ///
+    /// # Errors
+    /// [`LanguageError::Empty`] without any text.
+    pub fn of_scores(scores: Vec<(String, f64)>, scale: f64) -> Result<Self, LanguageError> {
+        let top = scores.iter().map(|s| s.1).fold(f64::NEG_INFINITY, f64::max);
+        let share = |(text, score)| (text, f64::exp((score - top) / scale));
+        Self::of_shares(scores.into_iter().map(share).collect())
+    }
+
+    fn of_shares(mut alternatives: Vec<(String, f64)>) -> Result<Self, LanguageError> {
+        let sum: f64 = alternatives.iter().map(|a| a.1).sum();
+        if alternatives.is_empty() || sum <= 0.0 {
+            return Err(LanguageError::Empty);
+        }
+        alternatives.iter_mut().for_each(|a| a.1 /= sum);
+        alternatives.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(Self { alternatives })
+    }
+}
+
+impl Listener<'_> {
+    /// Understands what was heard.
+    ///
+    /// # Errors
+    /// As [`Listener::understand`] when no alternative is understood, and
+    /// [`LanguageError::Unclear`] when too many are no commands.
+    pub fn hear(&self, spoken: &Spoken) -> Result<Utterance, LanguageError> {
+        let mut heard: Vec<(Utterance, f64)> = Vec::new();
+        let mut error = LanguageError::Empty;
+        for (text, share) in spoken.alternatives.iter().rev() {
+            match self.understand(text) {
+                // Wordings of one meaning are one alternative, as probable as the best of them.
+                Ok(utterance) => match heard.iter_mut().find(|(u, _)| same(u, &utterance)) {
+                    Some(known) => known.1 = known.1.max(*share),
+                    None => heard.push((utterance, *share)),
+                },
+                Err(e) => error = e,
+            }
+        }
+        heard.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let Some((best, _)) = heard.first() else {
+            return Err(error);
+        };
+        let all: f64 = heard.iter().map(|h| h.1).sum();
+        let idle: f64 = heard
+            .iter()
+            .filter(|(u, _)| u.commands.is_empty())
+            .map(|h| h.1)
+            .sum();
+        if best.commands.is_empty() {
+            return Ok(best.clone());
+        }
+        // Stopping harms nobody, so it needs no such caution.
+        if idle > IDLE * all && !self.is_stop(best) {
+            let text = spoken
+                .alternatives
+                .first()
+                .map(|a| a.0.clone())
+                .unwrap_or_default();
+            return Err(LanguageError::Unclear { text });
+        }
+        let count = best.commands.len();
+        let alike: Vec<_> = heard
+            .iter()
+            .filter(|(u, _)| u.commands.len() == count)
+            .collect();
+        let mut mixed = best.clone();
+        for (i, command) in mixed.commands.iter_mut().enumerate() {
+            let at = alike
+                .iter()
+                .filter_map(|(u, share)| Some((u.commands.get(i)?, *share)));
+            command.sentence = mix(&at.collect::<Vec<_>>())?;
+        }
+        Ok(mixed)
+    }
+}
+
+impl Listener<'_> {
+    fn is_stop(&self, utterance: &Utterance) -> bool {
+        let stop = self.lexicon.vocabulary().stop();
+        let first = utterance.commands.first();
+        stop.is_some() && first.and_then(|c| c.best(Category::ACTION)) == stop
+    }
+}
+
+/// Whether two utterances mean the same, however sure they are.
+fn same(a: &Utterance, b: &Utterance) -> bool {
+    let named = |c: &Command| {
+        let words = c.sentence.words().iter().filter_map(|w| w.category());
+        let named = words.map(|k| (k, c.best(k), c.quantity(k).map(f32::to_bits)));
+        (c.pointed.clone(), named.collect::<Vec<_>>())
+    };
+    a.commands
+        .iter()
+        .map(named)
+        .eq(b.commands.iter().map(named))
+}
+
+/// One sentence of several: every word's likelihoods and category probabilities by the shares of the
+/// sentences that have it.
+fn mix(sentences: &[(&Command, f64)]) -> Result<Sentence, LanguageError> {
+    let all: f64 = sentences.iter().map(|s| s.1).sum();
+    let mut mixed = Sentence::new(LANGUAGE);
+    for category in (0..Category::LIMIT).filter_map(Category::from_index) {
+        let mut likelihoods = [0.0_f64; OPTIONS];
+        let mut categories = [0.0_f64; Category::LIMIT];
+        let (mut options, mut used, mut share, mut quantity) = (0, 0, 0.0, None);
+        for (command, p) in sentences {
+            let mut words = command.sentence.words().iter();
+            let Some(word) = words.rfind(|w| w.category() == Some(category)) else {
+                continue;
+            };
+            share += p;
+            options = word.likelihoods().len();
+            used = used.max(word.categories().len());
+            quantity = quantity.or(word.quantity());
+            let into = likelihoods.iter_mut().zip(word.likelihoods());
+            into.for_each(|(sum, l)| *sum += p * f64::from(*l));
+            let into = categories.iter_mut().zip(word.categories());
+            into.for_each(|(sum, c)| *sum += p * f64::from(*c));
+        }
+        if share <= 0.0 {
+            continue;
+        }
+        let likelihoods = likelihoods.map(|l| (l / share).min(1.0) as f32);
+        let categories = categories.map(|c| (c / all).min(1.0) as f32);
+        let word = Word::new(
+            categories.get(..used).unwrap_or_default(),
+            likelihoods.get(..options).unwrap_or_default(),
+        )?;
+        mixed.push(match quantity {
+            Some(quantity) => word.with_quantity(quantity),
+            None => word,
+        })?;
+    }
+    Ok(mixed)
+}
