@@ -22,7 +22,7 @@ const ARRIVAL: Micros = Micros::from_millis(250);
 /// Movements longer than this are no gestures.
 const LONGEST: Micros = Micros::from_millis(4_000);
 
-/// Templates compared per frame: about 3,000 instructions each.
+/// Templates compared per frame: at most 4,000 instructions each.
 const PER_FRAME: usize = 8;
 
 /// Follows a palm.

@@ -136,7 +136,8 @@ pub fn of_distances(distances: &[f32; FEATURES]) -> Result<[f32; FEATURES], Shap
 pub const HIDDEN: usize = 20;
 
 /// A trained network: features, [`HIDDEN`] units with the activation x / (1 + |x|), a softmax over
-/// shapes. Each row ends with its bias. About 6,000 instructions on a Cortex-M4F.
+/// shapes. Each row ends with its bias. With the features before it and the evidence after it it takes
+/// 6,000 instructions on a Cortex-M4F.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     /// A row per hidden unit.
