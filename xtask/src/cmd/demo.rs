@@ -41,6 +41,7 @@ impl Demo {
         }
         bridge.args(["--board", "qemu"]).args(&self.rest);
         bridge.env(Board::Mps2An386.image_variable(), image);
+        eprintln!("building the bridge, which takes some minutes the first time");
         process::run(&mut bridge)
     }
 }
