@@ -7,7 +7,7 @@ use deictic_core::category::Category;
 use deictic_core::profile::Profile;
 use deictic_core::protocol::message::{Configuration, Fault, Statistics};
 use deictic_core::time::Micros;
-use deictic_tests::emulated::{Emulated, image};
+use deictic_tests::emulated::{Emulated, has_image};
 use deictic_tests::host::{Host, Inside, Wire, sentence_parts};
 
 fn configuration(profile: Profile) -> Configuration {
@@ -73,9 +73,11 @@ fn conversation<W: Wire>(wire: W, samples: std::ops::Range<u32>) -> Vec<Vec<ToHo
 
 #[test]
 fn the_board_decides_what_the_host_decides_bit_for_bit() {
-    let Some(image) = image() else { return };
+    if !has_image() {
+        return;
+    }
     let samples = 0..150;
-    let on_board = conversation(Emulated::boot(&image), samples.clone());
+    let on_board = conversation(Emulated::boot(), samples.clone());
     let inside = conversation(Inside::default(), samples);
     assert!(
         on_board.len() > 50,
@@ -89,8 +91,10 @@ fn the_board_decides_what_the_host_decides_bit_for_bit() {
 
 #[test]
 fn damage_on_the_line_is_counted_and_nothing_is_decided_from_it() {
-    let Some(image) = image() else { return };
-    let mut host = Host::new(Emulated::boot(&image));
+    if !has_image() {
+        return;
+    }
+    let mut host = Host::new(Emulated::boot());
     let mut bench = Bench::new();
     bench.m3_case();
     host.hello();
@@ -126,10 +130,12 @@ fn damage_on_the_line_is_counted_and_nothing_is_decided_from_it() {
 
 #[test]
 fn a_board_that_comes_back_knows_nothing_and_says_so() {
-    let Some(image) = image() else { return };
+    if !has_image() {
+        return;
+    }
     let mut bench = Bench::new();
     bench.m3_case();
-    let mut host = Host::new(Emulated::boot(&image));
+    let mut host = Host::new(Emulated::boot());
     host.hello();
     host.load_vocabulary(bench.vocabulary());
     host.load_scene(1, bench.scene());
@@ -142,7 +148,7 @@ fn a_board_that_comes_back_knows_nothing_and_says_so() {
     host.tell(&first);
 
     // The plug is pulled in the middle of a command.
-    host.wire = Emulated::boot(&image);
+    host.wire = Emulated::boot();
     host.tell(&first);
     let fault = host.wait_for(|m| match m {
         ToHost::Fault(fault) => Some(*fault),
