@@ -2,6 +2,7 @@
 //! robot that does what the unit decides.
 
 pub mod answering;
+pub mod clock;
 pub mod cmd;
 pub mod deciding;
 pub mod diagnose;

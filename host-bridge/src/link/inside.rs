@@ -7,6 +7,7 @@ use deictic_core::board::Unit;
 use deictic_core::time::Micros;
 
 use super::Wire;
+use crate::clock;
 
 /// A unit of a board's capacities with nothing between it and the bridge.
 pub struct Inside {
@@ -20,12 +21,12 @@ impl Inside {
     pub fn start() -> Self {
         Self {
             unit: Box::new(Unit::new(std::process::id())),
-            began: Instant::now(),
+            began: clock::now(),
         }
     }
 
     fn now(&self) -> Micros {
-        Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX))
+        Micros(u64::try_from(clock::since(self.began).as_micros()).unwrap_or(u64::MAX))
     }
 }
 
@@ -38,7 +39,7 @@ impl Wire for Inside {
     }
 
     fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
-        let until = Instant::now() + patience;
+        let until = clock::now() + patience;
         loop {
             let now = self.now();
             self.unit.poll(now);
@@ -51,11 +52,11 @@ impl Wire for Inside {
                 self.unit.sent(taken);
                 return Ok(taken);
             }
-            let Some(left) = until.checked_duration_since(Instant::now()) else {
+            let Some(left) = until.checked_duration_since(clock::now()) else {
                 return Ok(0);
             };
             let wake = Duration::from_micros(self.unit.next_wake().since(now).0);
-            std::thread::sleep(wake.min(left));
+            clock::sleep(wake.min(left));
         }
     }
 }

@@ -1,12 +1,11 @@
 //! What a session does about what the unit and the robot tell it.
 
-use std::time::Instant;
-
 use deictic_core::decide::Outcome;
 use deictic_core::large::Intent;
 use deictic_core::protocol::message::{Decided, RobotState, RobotStatus};
 
 use super::{Doing, Happening, PATIENCE, Session};
+use crate::clock;
 use crate::deciding::heard;
 use crate::explain;
 use crate::explain::reasons::Reasons;
@@ -70,7 +69,7 @@ impl Session<'_> {
             _ => false,
         };
         if self.configuration.explain && !stops {
-            self.reasons = Some((Reasons::default(), Instant::now() + PATIENCE));
+            self.reasons = Some((Reasons::default(), clock::now() + PATIENCE));
             // A unit that cannot be told is lost, which is an event of its own.
             let _ = self.unit.ask_statistics();
         }

@@ -20,6 +20,7 @@ use deictic_core::time::Micros;
 use deictic_core::unit::pairing::ANSWER;
 
 use crate::answering::certainly;
+use crate::clock;
 use crate::explain::reasons::Reasons;
 use crate::robot::{CommandId, Robot};
 use crate::scene::Tabletop;
@@ -91,7 +92,7 @@ impl<'a> Session<'a> {
             robot,
             table,
             configuration,
-            began: Instant::now(),
+            began: clock::now(),
             run: std::process::id(),
             commands: 0,
             doing: None,
@@ -168,7 +169,7 @@ impl<'a> Session<'a> {
         self.spoken.push(sentence.clone());
         self.unit.observe(sentence)?;
         let window = Duration::from_micros(self.configuration.window.0);
-        self.due = Some(Instant::now() + window + PATIENCE);
+        self.due = Some(clock::now() + window + PATIENCE);
         Ok(())
     }
 
@@ -188,7 +189,7 @@ impl<'a> Session<'a> {
         };
         self.spoken.push(sentence.clone());
         self.unit.answer(decision, sentence)?;
-        self.due = Some(Instant::now() + PATIENCE);
+        self.due = Some(clock::now() + PATIENCE);
         Ok(())
     }
 
@@ -224,7 +225,7 @@ impl<'a> Session<'a> {
         for event in self.unit.poll(patience) {
             self.hear_unit(event);
         }
-        if self.due.is_some_and(|due| Instant::now() >= due) {
+        if self.due.is_some_and(|due| clock::now() >= due) {
             self.due = None;
             self.happened.push(Happening::NoDecision);
             self.drop_queue();
@@ -234,7 +235,7 @@ impl<'a> Session<'a> {
         if self
             .reasons
             .as_ref()
-            .is_some_and(|(_, until)| Instant::now() >= *until)
+            .is_some_and(|(_, until)| clock::now() >= *until)
         {
             self.tell_reasons();
         }
@@ -254,7 +255,7 @@ impl<'a> Session<'a> {
     }
 
     fn now(&self) -> Micros {
-        Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX))
+        Micros(u64::try_from(clock::since(self.began).as_micros()).unwrap_or(u64::MAX))
     }
 
     /// Puts the reasons behind the decision that they are for.

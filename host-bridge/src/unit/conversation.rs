@@ -13,6 +13,7 @@ use deictic_core::protocol::{SCHEMA, VERSION};
 use deictic_core::time::Micros;
 
 use super::{PATIENCE, UnitError};
+use crate::clock;
 use crate::link::Wire;
 
 /// How often an unanswered Hello is said again: a board may be in the middle of starting.
@@ -34,7 +35,7 @@ pub struct Conversation {
 impl Conversation {
     /// Nothing has been said.
     pub fn new(wire: Box<dyn Wire>) -> Self {
-        let now = Instant::now();
+        let now = clock::now();
         Self {
             wire,
             link: Box::default(),
@@ -46,7 +47,7 @@ impl Conversation {
 
     /// For how long nothing was heard.
     pub fn silence(&self) -> Duration {
-        self.heard_at.elapsed()
+        clock::since(self.heard_at)
     }
 
     /// Says a message.
@@ -62,7 +63,7 @@ impl Conversation {
 
     /// Shows that the host lives.
     pub fn beat(&mut self, vocabulary: &Vocabulary, scene: &Scene) -> Result<(), UnitError> {
-        let now = Micros(u64::try_from(self.began.elapsed().as_micros()).unwrap_or(u64::MAX));
+        let now = Micros(u64::try_from(clock::since(self.began).as_micros()).unwrap_or(u64::MAX));
         let (vocabulary, scene) = (vocabulary.fingerprint(), scene.version());
         self.say(&ToUnit::Heartbeat(Heartbeat {
             now,
@@ -86,7 +87,7 @@ impl Conversation {
             heard.extend(self.link.receive(byte).map(|r| (r.message, r.missed)));
         }
         if !heard.is_empty() {
-            self.heard_at = Instant::now();
+            self.heard_at = clock::now();
         }
         Ok(heard)
     }
@@ -129,11 +130,11 @@ impl Conversation {
         };
         // Ends whatever half a frame the unit may have heard of an earlier host.
         self.wire.write(&[0]).map_err(UnitError::Broken)?;
-        let until = Instant::now() + PATIENCE;
-        while Instant::now() < until {
+        let until = clock::now() + PATIENCE;
+        while clock::now() < until {
             self.say(&ToUnit::Hello(ours))?;
-            let again = Instant::now() + AGAIN;
-            while let Some(left) = again.checked_duration_since(Instant::now()) {
+            let again = clock::now() + AGAIN;
+            while let Some(left) = again.checked_duration_since(clock::now()) {
                 for (message, _) in self.hear(left)? {
                     if let ToHost::Hello(theirs) = message {
                         let (unit, host) = ((theirs.version, theirs.schema), (VERSION, SCHEMA));
@@ -208,9 +209,9 @@ impl Conversation {
     /// Waits for the unit to have taken something over; keeps what else it says for later. `false`
     /// when it opened the conversation anew instead, or did not answer.
     fn is_loaded(&mut self, what: Loaded) -> Result<bool, UnitError> {
-        let until = Instant::now() + PATIENCE;
+        let until = clock::now() + PATIENCE;
         let mut others = std::mem::take(&mut self.pending);
-        while let Some(left) = until.checked_duration_since(Instant::now()) {
+        while let Some(left) = until.checked_duration_since(clock::now()) {
             let mut heard = self.hear(left.min(AGAIN))?.into_iter();
             while let Some((message, missed)) = heard.next() {
                 match message {

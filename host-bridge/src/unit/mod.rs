@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
 use deictic_core::protocol::message::{Configuration, Fault, Hello, Loaded, RobotStatus};
 
+use crate::clock;
 use crate::link::{Address, Wire, WireError, open};
 use conversation::Conversation;
 pub use error::UnitError;
@@ -91,7 +92,7 @@ impl GestureUnit {
             configuration,
             trust: Trust::new(vocabulary.fingerprint(), scene.version()),
             hello,
-            beat: Instant::now(),
+            beat: clock::now(),
         })
     }
 
@@ -115,7 +116,7 @@ impl GestureUnit {
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
         self.scene = scene.clone();
         self.trust.set_scene(scene.version());
-        self.scene_due = Some(Instant::now() + SCENE_PATIENCE);
+        self.scene_due = Some(clock::now() + SCENE_PATIENCE);
         self.with(|c| c.say_scene(scene))
     }
 
@@ -172,8 +173,8 @@ impl GestureUnit {
         let Some(conversation) = &mut self.conversation else {
             return vec![self.lose(Loss::Silent)];
         };
-        let result = if self.beat.elapsed() >= HEARTBEAT {
-            self.beat = Instant::now();
+        let result = if clock::since(self.beat) >= HEARTBEAT {
+            self.beat = clock::now();
             conversation.beat(&self.vocabulary, &self.scene)
         } else {
             Ok(())
@@ -198,7 +199,7 @@ impl GestureUnit {
             }
             events.extend(self.event(message, missed));
         }
-        if self.scene_due.is_some_and(|due| Instant::now() >= due) {
+        if self.scene_due.is_some_and(|due| clock::now() >= due) {
             events.push(self.lose(Loss::Stale));
         }
         events
@@ -236,9 +237,11 @@ impl GestureUnit {
 
     /// Tries to reach a lost unit: over the wire that is there, then over a new one.
     fn reach(&mut self, patience: Duration) -> Vec<Event> {
-        let wait = HEARTBEAT.saturating_sub(self.beat.elapsed()).min(patience);
-        std::thread::sleep(wait);
-        if self.beat.elapsed() < HEARTBEAT {
+        let wait = HEARTBEAT
+            .saturating_sub(clock::since(self.beat))
+            .min(patience);
+        clock::sleep(wait);
+        if clock::since(self.beat) < HEARTBEAT {
             return Vec::new();
         }
         let reached = match self.conversation.take() {
@@ -263,7 +266,7 @@ impl GestureUnit {
                 }
             }
         };
-        self.beat = Instant::now();
+        self.beat = clock::now();
         events
     }
 
