@@ -15,6 +15,8 @@ struct Args {
 }
 
 fn main() -> ExitCode {
+    // A reader that has seen enough (`| head`) ends the program, as it ends other tools.
+    sigpipe::reset();
     match Args::parse().command.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

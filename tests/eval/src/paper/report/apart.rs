@@ -94,8 +94,9 @@ pub fn setups(material: &Material<'_>) -> String {
         "wrong",
     ];
     format!(
-        "<h2>The user study's set-ups</h2><p>Whole intents, the paper's text. Contradicting objects \
-         come out about half right, because M3 picks each parameter alone.</p>{}",
+        "<h2>The user study's set-ups</h2><p>Whole intents, the paper's text. Of two contradicting \
+         objects the one in the modality with the sharper similarity table mostly wins, right or \
+         wrong, because M3 picks each parameter alone.</p>{}",
         table(&heads, &rows)
     )
 }
