@@ -46,6 +46,12 @@ pub enum DatasetError {
         /// Its path.
         folder: PathBuf,
     },
+    /// The file has no samples.
+    #[error("{}: holds no samples, so there is nothing to score; was it cut short?", file.display())]
+    Empty {
+        /// Its path.
+        file: PathBuf,
+    },
     /// The file ends or breaks in the middle of a line.
     #[error("{}, line {line}: cannot be read further: {cause}", file.display())]
     Truncated {
@@ -135,6 +141,11 @@ pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Set, DatasetError> {
             fault,
         })?;
         records.push(record);
+    }
+    if records.is_empty() {
+        return Err(DatasetError::Empty {
+            file: path.to_owned(),
+        });
     }
     Ok(Set {
         name: name(path),

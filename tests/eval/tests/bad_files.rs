@@ -204,3 +204,9 @@ fn a_vocabulary_with_an_unknown_feature_is_refused() {
         "{error}"
     );
 }
+
+#[test]
+fn a_set_without_samples_is_refused() {
+    let error = dataset::read_folder(folder("").path()).unwrap_err();
+    assert!(matches!(error, DatasetError::Empty { .. }), "{error}");
+}
