@@ -34,8 +34,10 @@
 extern crate std;
 
 pub mod align;
+pub mod can;
 pub mod capacity;
 pub mod category;
+pub mod command;
 pub mod decide;
 pub mod entropy;
 pub mod feasibility;
@@ -50,6 +52,7 @@ pub mod protocol;
 pub mod reference;
 pub mod scene;
 pub mod sentence;
+pub mod slcan;
 pub mod tables;
 pub mod time;
 pub mod trace;

@@ -23,6 +23,12 @@ pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
+/// The nearest whole number, halves away from zero.
+#[must_use]
+pub fn round(x: f32) -> f32 {
+    libm::roundf(x)
+}
+
 /// The angle of the point (`x`, `y`) from the x axis, -pi..=pi.
 #[must_use]
 pub fn atan2(y: f32, x: f32) -> f32 {

@@ -237,7 +237,7 @@ impl Printer {
                     "event": "step", "step": step, "number": number, "of": of,
                 }));
             }
-            Event::Changed { .. } => {}
+            Event::Changed { .. } | Event::Accepted(_) | Event::Refused { .. } => {}
             Event::Done(_) => {
                 self.line("robot", paint::good("done"));
                 self.object(&json!({ "event": "done" }));
@@ -246,9 +246,10 @@ impl Printer {
                 self.line("robot", paint::ask(format!("stopped at: {step}")));
                 self.object(&json!({ "event": "stopped", "step": step }));
             }
-            Event::Failed { why, .. } => {
+            Event::Failed { fault, why, .. } => {
                 self.line("robot", paint::bad(format!("failed: {why}")));
-                self.object(&json!({ "event": "failed", "why": why }));
+                let fault = format!("{fault:?}");
+                self.object(&json!({ "event": "failed", "fault": fault, "why": why }));
             }
         }
     }

@@ -4,6 +4,7 @@
 pub mod sim;
 mod skill;
 
+pub use deictic_core::command::code::Fault;
 use deictic_core::large::Intent;
 use deictic_core::time::Micros;
 use thiserror::Error;
@@ -132,9 +133,37 @@ impl Refusal {
     }
 }
 
+/// How a robot has taken a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taken {
+    /// It is being done.
+    Begun,
+    /// It is on its way to a robot that has not answered yet: [`Event::Accepted`],
+    /// [`Event::Refused`] or [`Event::Failed`] follows.
+    Sent,
+}
+
+/// How an arm stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture {
+    /// The angles of its joints, counted from the base, in radians.
+    pub joints: [f32; 7],
+    /// How far the fingers are apart, in metres.
+    pub width: f32,
+}
+
 /// How far a command is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
+    /// A command that was [`Taken::Sent`] is being done.
+    Accepted(CommandId),
+    /// A command that was [`Taken::Sent`] is not begun; nothing has moved.
+    Refused {
+        /// Which command.
+        id: CommandId,
+        /// Why.
+        refusal: Refusal,
+    },
     /// A motion begins.
     Begun {
         /// Of which command.
@@ -167,6 +196,8 @@ pub enum Event {
         /// Which command.
         id: CommandId,
         /// What went wrong.
+        fault: Fault,
+        /// In words.
         why: String,
     },
 }
@@ -177,7 +208,42 @@ pub trait Robot {
     ///
     /// # Errors
     /// [`Refusal`]
-    fn begin(&mut self, now: Micros, command: &Command, world: World<'_>) -> Result<(), Refusal>;
+    fn begin(&mut self, now: Micros, command: &Command, world: World<'_>)
+    -> Result<Taken, Refusal>;
+
+    /// Goes to the ready posture, as a command of its own.
+    ///
+    /// # Errors
+    /// [`Refusal`]
+    fn home(&mut self, now: Micros, id: CommandId) -> Result<Taken, Refusal> {
+        let _ = (now, id);
+        Err(Refusal::UnknownMotion("go home".into()))
+    }
+
+    /// Pauses in the middle of what it is doing, ready to go on. `false` when it is doing nothing, or
+    /// cannot.
+    fn hold(&mut self, now: Micros) -> bool {
+        let _ = now;
+        false
+    }
+
+    /// Goes on with what was held. `false` when nothing is.
+    fn resume(&mut self, now: Micros) -> bool {
+        let _ = now;
+        false
+    }
+
+    /// What went wrong has been seen to: it takes commands again. `false` when it cannot yet.
+    fn clear_fault(&mut self, now: Micros) -> bool {
+        let _ = now;
+        true
+    }
+
+    /// How the arm stands, where it says so.
+    fn posture(&self, now: Micros) -> Option<Posture> {
+        let _ = now;
+        None
+    }
 
     /// Stops at once, whatever it is doing; [`Robot::poll`] then tells where.
     fn stop(&mut self, now: Micros);

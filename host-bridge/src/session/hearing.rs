@@ -3,13 +3,14 @@
 use deictic_core::decide::Outcome;
 use deictic_core::large::Intent;
 use deictic_core::protocol::message::{Decided, RobotState, RobotStatus};
+use deictic_core::time::Micros;
 
 use super::{Doing, Happening, PATIENCE, Session};
 use crate::clock;
 use crate::deciding::heard;
 use crate::explain;
 use crate::explain::reasons::Reasons;
-use crate::robot::{self, Command, CommandId, World};
+use crate::robot::{self, Command, CommandId, Taken, World};
 use crate::unit;
 
 impl Session<'_> {
@@ -116,10 +117,17 @@ impl Session<'_> {
         };
         let now = self.now();
         match self.robot.begin(now, &command, world) {
-            Ok(()) => {
-                self.doing = Some(Doing { id, decision });
-                self.happened.push(Happening::Accepted(command.intent));
-                self.report(decision, RobotState::Running(0));
+            Ok(taken) => {
+                let intent = command.intent;
+                if taken == Taken::Begun {
+                    self.happened.push(Happening::Accepted(intent.clone()));
+                    self.report(decision, RobotState::Running(0));
+                }
+                self.doing = Some(Doing {
+                    id,
+                    decision,
+                    intent,
+                });
             }
             Err(refusal) => {
                 let intent = command.intent;
@@ -136,29 +144,57 @@ impl Session<'_> {
     pub(super) fn hear_robot(&mut self) {
         let now = self.now();
         for event in self.robot.poll(now) {
-            self.happened.push(Happening::Robot(event.clone()));
-            let mine = |id: &CommandId| self.doing.as_ref().filter(|d| d.id == *id);
-            match &event {
-                robot::Event::Begun { id, .. } => {
-                    if let Some(decision) = mine(id).map(|d| d.decision) {
-                        let percent = self.robot.progress(now).map_or(0, |(_, p)| p);
-                        self.report(decision, RobotState::Running(percent));
-                    }
-                }
-                robot::Event::Changed { changes, .. } => {
-                    match self.table.apply(changes, self.lexicon) {
-                        Err(error) => self.happened.push(Happening::BadTable(error)),
-                        Ok(()) => {
-                            self.happened.push(Happening::Table(self.table.version()));
-                            // A unit that is not there gets it when it comes back.
-                            let _ = self.unit.set_scene(self.table.scene());
-                        }
-                    }
-                }
-                robot::Event::Done(id) => self.over(*id, RobotState::Done),
-                robot::Event::Stopped { id, .. } => self.over(*id, RobotState::Stopped),
-                robot::Event::Failed { id, .. } => self.over(*id, RobotState::Failed),
+            match event {
+                robot::Event::Accepted(id) => self.accepted(id),
+                robot::Event::Refused { id, refusal } => self.refused(id, refusal),
+                other => self.moved(now, other),
             }
+        }
+    }
+
+    fn accepted(&mut self, id: CommandId) {
+        let Some(doing) = self.doing.as_ref().filter(|d| d.id == id) else {
+            return;
+        };
+        let (decision, intent) = (doing.decision, doing.intent.clone());
+        self.happened.push(Happening::Accepted(intent));
+        self.report(decision, RobotState::Running(0));
+    }
+
+    fn refused(&mut self, id: CommandId, refusal: robot::Refusal) {
+        let Some(doing) = self.doing.take_if(|d| d.id == id) else {
+            return;
+        };
+        let intent = doing.intent;
+        self.happened.push(Happening::Refused { intent, refusal });
+        self.drop_queue();
+        self.report(doing.decision, RobotState::Refused);
+    }
+
+    fn moved(&mut self, now: Micros, event: robot::Event) {
+        self.happened.push(Happening::Robot(event.clone()));
+        match event {
+            robot::Event::Accepted(_) | robot::Event::Refused { .. } => {}
+            robot::Event::Begun { id, .. } => {
+                let mine = self.doing.as_ref().filter(|d| d.id == id);
+                if let Some(decision) = mine.map(|d| d.decision) {
+                    let percent = self.robot.progress(now).map_or(0, |(_, p)| p);
+                    self.report(decision, RobotState::Running(percent));
+                }
+            }
+            robot::Event::Changed { changes, .. } => {
+                match self.table.apply(&changes, self.lexicon) {
+                    Err(error) => self.happened.push(Happening::BadTable(error)),
+                    Ok(()) => {
+                        self.happened.push(Happening::Table(self.table.version()));
+                        // A unit that is not there gets it when it comes back.
+                        let _ = self.unit.set_scene(self.table.scene());
+                    }
+                }
+            }
+            robot::Event::Done(id) => self.over(id, RobotState::Done),
+            robot::Event::Stopped { id, .. } => self.over(id, RobotState::Stopped),
+            robot::Event::Failed { id, .. } => self.over(id, RobotState::Failed),
         }
     }
 

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
-use deictic_core::large::Sentence;
+use deictic_core::large::{Intent, Sentence};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
 use deictic_core::unit::pairing::ANSWER;
@@ -41,6 +41,7 @@ pub const ANSWER_WEIGHT: f32 = 10.0;
 struct Doing {
     id: CommandId,
     decision: u32,
+    intent: Intent,
 }
 
 /// A unit, a robot and a table.

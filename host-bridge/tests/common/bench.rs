@@ -73,6 +73,7 @@ impl Bench {
         };
         self.sim
             .begin(self.now, &Command { id, intent, scene }, world)
+            .map(|_| ())
     }
 
     pub fn begin(&mut self, action: &str, things: &[(Category, &str)]) -> Result<(), Refusal> {

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 
 use deictic_core::time::Micros;
 
-use super::{Command, CommandId, Event, Refusal, Robot, Skill, World};
+use super::{Command, CommandId, Event, Refusal, Robot, Skill, Taken, World};
 use crate::scene::Change;
 use plan::{Effect, Place, Step, plan};
 
@@ -185,7 +185,12 @@ impl Sim {
 }
 
 impl Robot for Sim {
-    fn begin(&mut self, now: Micros, command: &Command, world: World<'_>) -> Result<(), Refusal> {
+    fn begin(
+        &mut self,
+        now: Micros,
+        command: &Command,
+        world: World<'_>,
+    ) -> Result<Taken, Refusal> {
         let CommandId { run, number } = command.id;
         if self.newest.get(&run).is_some_and(|n| number <= *n) {
             return Err(Refusal::Repeated);
@@ -198,7 +203,7 @@ impl Robot for Sim {
             self.newest.insert(run, number);
             self.stop(now);
             self.happened.push_back(Event::Done(command.id));
-            return Ok(());
+            return Ok(Taken::Begun);
         }
         if self.running.is_some() {
             return Err(Refusal::Busy);
@@ -230,7 +235,7 @@ impl Robot for Sim {
         if steps.is_empty() {
             // The hand holds what it was to pick.
             self.happened.push_back(Event::Done(command.id));
-            return Ok(());
+            return Ok(Taken::Begun);
         }
         self.running = Some(Running {
             id: command.id,
@@ -240,7 +245,7 @@ impl Robot for Sim {
             at: 0,
         });
         self.begin_step();
-        Ok(())
+        Ok(Taken::Begun)
     }
 
     fn stop(&mut self, now: Micros) {
