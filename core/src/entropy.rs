@@ -82,13 +82,18 @@ fn for_each_h<T>(
     }
 }
 
+/// The reciprocal of anything below is infinite: a product of four modalities that contradict each other gets there.
+const TINY: f32 = 1e-37;
+
 /// Scales `w` so that it sums to 1; leaves a vector of zeros as it is.
 #[inline(never)]
 pub fn normalise(w: &mut [f32]) {
     let sum: f32 = w.iter().sum();
-    if sum > 0.0 {
+    if sum >= TINY {
         let per_sum = 1.0 / sum;
         w.iter_mut().for_each(|w| *w *= per_sum);
+    } else if sum > 0.0 {
+        w.iter_mut().for_each(|w| *w /= sum);
     }
 }
 
@@ -144,6 +149,9 @@ mod tests {
         normalise(&mut w);
         assert_eq!(w, [0.0; 3]);
         let mut w = [0.5, 1.5];
+        normalise(&mut w);
+        assert_eq!(w, [0.25, 0.75]);
+        let mut w = [f32::from_bits(1), f32::from_bits(3)];
         normalise(&mut w);
         assert_eq!(w, [0.25, 0.75]);
     }

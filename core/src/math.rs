@@ -54,6 +54,12 @@ pub fn larger(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
+/// The smaller of two numbers, neither of them NaN.
+#[must_use]
+pub fn smaller(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}
+
 /// Index of the largest value, the first among equals; `None` for an empty slice or NaN alone.
 #[must_use]
 #[inline(never)]

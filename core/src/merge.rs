@@ -4,7 +4,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::entropy;
-use crate::math::larger;
+use crate::math::{larger, smaller};
+
+/// What a product is held below: so far from the end of the floats that a word of such likelihoods can still be summed,
+/// and so far above what any two modalities give that only certainty in three or more of them gets there.
+const LARGEST: f32 = 1e30;
 
 /// The mixing operator of eq. 3, applied option by option.
 pub trait Mix {
@@ -34,7 +38,7 @@ impl Mix for Merge {
     fn mix(&self, merged: f32, word: f32) -> f32 {
         match self {
             Self::Max => larger(merged, word),
-            Self::Mul => merged * word,
+            Self::Mul => smaller(merged * word, LARGEST),
             Self::Add => merged + word,
         }
     }
@@ -44,7 +48,7 @@ impl Mix for Merge {
         let each = merged.iter_mut().zip(word);
         match self {
             Self::Max => each.for_each(|(m, w)| *m = larger(*m, weight * w)),
-            Self::Mul => each.for_each(|(m, w)| *m *= weight * w),
+            Self::Mul => each.for_each(|(m, w)| *m = smaller(*m * (weight * w), LARGEST)),
             Self::Add => each.for_each(|(m, w)| *m += weight * w),
         }
     }
@@ -86,6 +90,16 @@ mod tests {
             merge.mix_in(&mut merged, &[1.0, 0.5], 0.5);
             assert_eq!(merged, [merge.mix(0.25, 0.5), merge.mix(0.5, 0.25)]);
         }
+    }
+
+    #[test]
+    fn certainty_in_every_modality_stays_finite() {
+        let mut merged = [1e14, 1e-14];
+        for _ in 0..3 {
+            Merge::Mul.mix_in(&mut merged, &[1e14, 1e-14], 1000.0);
+        }
+        entropy::normalise(&mut merged);
+        assert_eq!(merged, [1.0, 0.0]);
     }
 
     #[test]

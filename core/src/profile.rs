@@ -86,6 +86,12 @@ pub enum SeveralClear {
     TakeBest,
 }
 
+/// The largest weight: beyond it nothing else would count, and sums could leave the floats.
+const WEIGHT: f32 = 1_000.0;
+
+/// The smallest [`Profile::least_h`]: the reference's.
+const LEAST_H: f32 = 1e-14;
+
 /// Everything that can be set about a decision.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Profile {
@@ -168,7 +174,7 @@ impl Profile {
             merge,
             beta: BetaScope::Any,
             presence: Presence::Sum(0.1),
-            least_h: 1e-14,
+            least_h: LEAST_H,
             several_clear: SeveralClear::TakeBest,
             guarded: false,
             reference_quirks: true,
@@ -228,7 +234,7 @@ impl Profile {
     #[inline(never)]
     pub fn check(&self) -> Result<(), ProfileError> {
         let positive = |x: f32| x > 0.0 && x.is_finite();
-        if !self.weights.iter().all(|&w| positive(w)) {
+        if !self.weights.iter().all(|&w| positive(w) && w <= WEIGHT) {
             return Err(ProfileError::Weights);
         }
         if !(positive(self.signature_penalty) && self.signature_penalty <= 1.0) {
@@ -237,7 +243,7 @@ impl Profile {
         if !(0.0..1.0).contains(&self.lead) {
             return Err(ProfileError::Lead);
         }
-        if !positive(self.least_h) {
+        if !(positive(self.least_h) && self.least_h >= LEAST_H) {
             return Err(ProfileError::LeastH);
         }
         match self.threshold {
@@ -260,13 +266,13 @@ impl Default for Profile {
 /// Which field of a [`Profile`] cannot be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ProfileError {
-    /// Weights must be finite and above 0.
+    /// Weights must be above 0 and at most 1,000.
     Weights,
     /// The signature penalty A must be above 0 and at most 1.
     SignaturePenalty,
     /// The lead must be in 0..1.
     Lead,
-    /// The least cross-entropy must be above 0.
+    /// The least cross-entropy must be finite and at least 1e-14, the reference's.
     LeastH,
     /// Fixed thresholds must be finite, with clear >= unclear >= 0.
     FixedThresholds,
@@ -306,6 +312,8 @@ mod tests {
             p.check()
         };
         assert_eq!(bad(|p| p.weights[2] = f32::NAN), Err(ProfileError::Weights));
+        assert_eq!(bad(|p| p.weights[1] = 1e30), Err(ProfileError::Weights));
+        assert_eq!(bad(|p| p.least_h = 1e-30), Err(ProfileError::LeastH));
         assert_eq!(
             bad(|p| p.signature_penalty = 0.0),
             Err(ProfileError::SignaturePenalty)

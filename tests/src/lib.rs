@@ -1,5 +1,7 @@
 //! What the behaviour tests of the whole share: a unit on an emulated board, one in this process,
-//! and a host that speaks with either.
+//! a host that speaks with either, the method in 64-bit floats, and what the fuzzers check.
 
 pub mod emulated;
+pub mod fuzz;
 pub mod host;
+pub mod method;

@@ -8,6 +8,7 @@
 //! | `qemu` | boots the unit in QEMU and says how to connect |
 //! | `budget` | measures the image against its golden figures |
 //! | `test` | formatting, lints, all tests, both images, budgets |
+//! | `fuzz` | fuzzes every door of core and bridge |
 
 mod board;
 mod budget;
@@ -35,6 +36,7 @@ enum Command {
     Qemu(cmd::qemu::Qemu),
     Budget(cmd::budget::Budget),
     Test(cmd::test::Test),
+    Fuzz(cmd::fuzz::Fuzz),
 }
 
 fn main() -> ExitCode {
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
         Command::Qemu(qemu) => qemu.run(),
         Command::Budget(budget) => budget.run(),
         Command::Test(test) => test.run(),
+        Command::Fuzz(fuzz) => fuzz.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -53,6 +53,17 @@ impl<const OUT: usize> Outbox<OUT> {
         self.written = 0;
     }
 
+    /// Forgets what is waiting. When that may cut a frame short, a zero ends it, so that the next one is not taken for
+    /// its rest.
+    pub fn abandon(&mut self) {
+        let cut = !self.waiting().is_empty();
+        self.clear();
+        if cut {
+            // There is room in an empty outbox.
+            let _ = self.bytes.push(0);
+        }
+    }
+
     fn compact(&mut self) {
         if self.written > 0 {
             let length = self.bytes.len();
@@ -253,6 +264,31 @@ impl<const FRAME: usize> FrameReader<FRAME> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn what_is_abandoned_halfway_does_not_swallow_the_next_frame() {
+        let write = |out: &mut Outbox<64>, byte| {
+            let mut writer = FrameWriter::new(out).unwrap();
+            writer.try_push(byte).unwrap();
+            writer.finalize().unwrap();
+        };
+        let mut out = Outbox::<64>::new();
+        let mut reader = FrameReader::<16>::new();
+        write(&mut out, 7);
+        let mut line = out.waiting()[..3].to_vec();
+        out.written(3);
+        out.abandon();
+        write(&mut out, 8);
+        line.extend(out.waiting());
+        let frames = line
+            .iter()
+            .filter_map(|b| reader.push(*b)?.ok().map(<[u8]>::to_vec));
+        assert_eq!(frames.collect::<std::vec::Vec<_>>(), [[8]]);
+        // Nothing waits, nothing is cut.
+        let mut out = Outbox::<64>::new();
+        out.abandon();
+        assert!(out.waiting().is_empty());
+    }
 
     fn framed(contents: &[u8]) -> std::vec::Vec<u8> {
         let mut out = Outbox::<4096>::new();

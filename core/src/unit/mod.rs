@@ -230,7 +230,7 @@ impl<
 
     /// Opens a conversation: everything of an earlier one is forgotten.
     fn greet(&mut self, now: Micros, host: &Hello) {
-        self.outbox.clear();
+        self.outbox.abandon();
         self.loading.clear();
         self.pairing.clear();
         self.configuration = Configuration::DEFAULT;

@@ -143,8 +143,8 @@ pub fn sentence_error(error: &SentenceError) -> Advice {
 pub fn profile_error(error: &ProfileError) -> Advice {
     match error {
         ProfileError::Weights => Advice::new(
-            "a modality's weight is not above 0",
-            "weights are finite numbers above 0",
+            "a modality's weight is not in 0..=1000",
+            "weights are above 0 and at most 1000; most are 1",
         ),
         ProfileError::SignaturePenalty => Advice::new(
             "the signature penalty is not in 0..=1",
@@ -155,8 +155,8 @@ pub fn profile_error(error: &ProfileError) -> Advice {
             "take a number from 0 to below 1; the paper's is 0.01",
         ),
         ProfileError::LeastH => Advice::new(
-            "the least cross-entropy is not above 0",
-            "take a small number above 0, for example 0.01",
+            "the least cross-entropy is below 1e-14",
+            "take a small number, for example 0.01",
         ),
         ProfileError::FixedThresholds => Advice::new(
             "the fixed thresholds are not in order",

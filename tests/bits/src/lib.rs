@@ -17,7 +17,7 @@
 #![forbid(unsafe_code)]
 
 mod digest;
-mod random;
+pub mod random;
 mod sample;
 mod settings;
 

@@ -3,6 +3,7 @@
 pub mod budget;
 pub mod demo;
 pub mod firmware;
+pub mod fuzz;
 pub mod qemu;
 pub mod setup;
 pub mod test;
