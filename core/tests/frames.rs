@@ -7,8 +7,17 @@ use common::*;
 use deictic_core::board::{ToHost, ToUnit, Word};
 use deictic_core::category::Category;
 use deictic_core::decide::{Decision, Outcome, Question, Reason};
+use deictic_core::gesture::counters::SampleCounters;
+use deictic_core::gesture::frame::Side;
+use deictic_core::gesture::mapping::{Gesture, MappingError};
+use deictic_core::gesture::pointing::MountError;
+use deictic_core::gesture::shape::SHAPES;
+use deictic_core::gesture::stroke::Template;
+use deictic_core::gesture::stroke_table::SCALE;
+use deictic_core::gesture::wire::{Sample, encode};
 use deictic_core::intent::{Intent, Parameter};
 use deictic_core::profile::{Profile, ProfileError, Threshold};
+use deictic_core::protocol::hand::*;
 use deictic_core::protocol::link::{Counters, Link, Opening};
 use deictic_core::protocol::message::*;
 use deictic_core::protocol::stuffing::Outbox;
@@ -103,6 +112,7 @@ fn to_unit() -> Vec<(&'static str, ToUnit)> {
         ("answer", sentence(Some(7))),
         ("ask-statistics", ToUnit::AskStatistics),
     ];
+    samples.extend(hand_to_unit());
     for (name, state) in [
         ("robot-running", RobotState::Running(40)),
         ("robot-done", RobotState::Done),
@@ -113,6 +123,90 @@ fn to_unit() -> Vec<(&'static str, ToUnit)> {
         samples.push((name, ToUnit::Robot(RobotStatus { decision: 7, state })));
     }
     samples
+}
+
+fn template(gesture: u8) -> Template {
+    Template {
+        gesture,
+        points: std::array::from_fn(|i| [i as i8, -(i as i8), i8::MIN]),
+        ln_length: 5.5,
+        ln_seconds: -0.5,
+    }
+}
+
+/// Of every message to a unit that is about hands.
+fn hand_to_unit() -> Vec<(&'static str, ToUnit)> {
+    let meaning = |gesture, action| Meaning { gesture, action };
+    let meanings = [
+        meaning(Gesture::Shape(7), PUT),
+        meaning(Gesture::Stroke(23), STOP),
+    ];
+    let templates = TemplatesPart {
+        total: 64,
+        first: 3,
+        known: true,
+        scale: SCALE,
+        templates: [template(8), template(9), template(23)]
+            .into_iter()
+            .collect(),
+    };
+    let sample = encode(&Sample::Nothing(0x0102_0304)).unwrap();
+    vec![
+        (
+            "sample",
+            ToUnit::Sample(SampleBytes::from_slice(&sample).unwrap()),
+        ),
+        ("meanings", ToUnit::Meanings(meanings.into_iter().collect())),
+        ("hand", ToUnit::Hand(HandSettings::DEFAULT)),
+        ("templates", ToUnit::Templates(templates)),
+        ("ask-hand", ToUnit::AskHand),
+    ]
+}
+
+/// Of every message to a host that is about hands.
+fn hand_to_host() -> Vec<(&'static str, ToHost)> {
+    let guess = |number, p| Guess { number, p };
+    let view = HandView {
+        hand: Some(Side::Left),
+        shapes: [0.125; SHAPES],
+        shown: Some(2),
+        strokes: [guess(5, 0.75), guess(23, 0.125)].into_iter().collect(),
+        no_stroke: 0.125,
+        pointed: [guess(1, 0.5), guess(0, 0.25)].into_iter().collect(),
+        nothing: 0.25,
+        words: [Glimpse {
+            category: Category::ACTION,
+            option: PUT,
+            likelihood: 0.9,
+        }]
+        .into_iter()
+        .collect(),
+    };
+    let samples = SampleCounters {
+        used: 1,
+        hurried: 2,
+        backwards: 3,
+        other_hand: 4,
+        shapeless: 5,
+        unsound: 6,
+        damaged: 7,
+        foreign: 8,
+        unready: 9,
+        silences: 10,
+    };
+    let ToUnit::Sentence(shown) = sentence(Some(7)) else {
+        unreachable!("a sentence is one")
+    };
+    let statistics = HandStatistics {
+        samples,
+        learned: 64,
+    };
+    vec![
+        ("showing", ToHost::Showing(true)),
+        ("shown", ToHost::Shown(shown)),
+        ("hand-view", ToHost::Hand(view)),
+        ("hand-statistics", ToHost::HandStatistics(statistics)),
+    ]
 }
 
 /// One of every message to a host, with every part of it in use.
@@ -175,9 +269,13 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
         ("loaded-vocabulary", Loaded::Vocabulary(0xdec1_c71c)),
         ("loaded-scene", Loaded::Scene(3)),
         ("loaded-configuration", Loaded::Configuration),
+        ("loaded-meanings", Loaded::Meanings),
+        ("loaded-hand", Loaded::Hand),
+        ("loaded-templates", Loaded::Templates(64)),
     ] {
         samples.push((name, ToHost::Loaded(what)));
     }
+    samples.extend(hand_to_host());
     let error = SentenceError::BadLikelihood { word: 1 };
     for (name, fault) in [
         (
@@ -219,6 +317,27 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
         ),
         ("fault-no-question", Fault::NoQuestion { decision: 6 }),
         ("fault-host-lost", Fault::HostLost),
+        (
+            "fault-meaning",
+            Fault::Hand(HandFault::Meaning(MappingError::Reserved(Gesture::Shape(
+                0,
+            )))),
+        ),
+        (
+            "fault-mount",
+            Fault::Hand(HandFault::Mount(MountError::Origin)),
+        ),
+        ("fault-aim", Fault::Hand(HandFault::Aim)),
+        (
+            "fault-templates",
+            Fault::Hand(HandFault::TooManyTemplates { capacity: 64 }),
+        ),
+        (
+            "fault-template",
+            Fault::Hand(HandFault::Template { template: 2 }),
+        ),
+        ("fault-scale", Fault::Hand(HandFault::Scale)),
+        ("fault-sensor-lost", Fault::Hand(HandFault::SensorLost)),
     ] {
         samples.push((name, ToHost::Fault(fault)));
     }
@@ -321,4 +440,25 @@ fn the_largest_messages_fit_a_boards_frame() {
         alpha: all(),
         beta: all(),
     }));
+    let all = || {
+        let guess = |number| Guess { number, p: 1.0 };
+        (0..8).map(guess).collect()
+    };
+    let glimpse = Glimpse {
+        category: Category::STORAGE,
+        option: u8::MAX,
+        likelihood: 1.0,
+    };
+    frame(&ToHost::Hand(HandView {
+        hand: Some(Side::Right),
+        shown: Some(8),
+        strokes: all(),
+        pointed: all(),
+        words: core::iter::repeat_n(glimpse, 8).collect(),
+        ..HandView::default()
+    }));
+    let gesture = Gesture::Stroke(u8::MAX);
+    let action = u8::MAX;
+    let meanings = core::iter::repeat_n(Meaning { gesture, action }, MEANINGS);
+    frame(&ToUnit::Meanings(meanings.collect()));
 }

@@ -4,13 +4,16 @@ use deictic::hand::movement::GESTURES;
 use deictic::hand::session::{Act, Session};
 use deictic_core::board::{CATEGORIES, OPTIONS, Scene, Sentence, Vocabulary, WORDS};
 use deictic_core::category::{Category, CategorySet};
+use deictic_core::gesture::context::{Context, Event};
 use deictic_core::gesture::frame::HandFrame;
+use deictic_core::gesture::line::{FRAMED, SensorLine, send};
 use deictic_core::gesture::mapping::{Gesture, Mapping};
 use deictic_core::gesture::pointing::{Aim, Mount};
-use deictic_core::gesture::reader::{Context, Event, HandReader};
+use deictic_core::gesture::reader::HandReader;
 use deictic_core::gesture::shape::Shape;
-use deictic_core::gesture::stroke_table::{NAMES, SCALE, TEMPLATES};
-use deictic_core::gesture::wire::{FRAMED, Sample, SensorLine, send};
+use deictic_core::gesture::stroke::Templates;
+use deictic_core::gesture::stroke_table::NAMES;
+use deictic_core::gesture::wire::Sample;
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::scene::Entity;
 use deictic_core::time::Micros;
@@ -19,7 +22,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 type Reader = HandReader<OPTIONS, CATEGORIES, WORDS>;
-type Happened = Event<WORDS, CATEGORIES, OPTIONS>;
+
+/// What a sample led to, and what was said by then.
+type Happened = (Event, Option<Sentence>);
 
 /// stop, put-into, pick, push.
 const STOP: usize = 0;
@@ -93,14 +98,17 @@ impl Bench {
             vocabulary: &self.vocabulary,
             scene: &self.scene,
             mapping: &self.mapping,
-            templates: &TEMPLATES,
-            scale: &SCALE,
+            templates: Templates::KNOWN,
             mount: &Mount::DEFAULT,
             aim: &Aim::DEFAULT,
         };
         let mut events = Vec::new();
         for (sample, i) in samples.iter().zip(0..) {
-            events.extend(reader.take(Micros(i * 9_000), sample, &context));
+            let Some(event) = reader.take(Micros(i * 9_000), sample, &context) else {
+                continue;
+            };
+            let said = matches!(event, Event::Said | Event::Stop).then(|| reader.said().clone());
+            events.push((event, said));
         }
         events
     }
@@ -111,7 +119,7 @@ impl Bench {
         let samples = Session::new(Mount::DEFAULT, 0.03, &mut rng).perform(acts, 110.0);
         let events = self.read(&mut Reader::new(), &samples);
         events.into_iter().rev().find_map(|event| match event {
-            Event::Said(sentence) => Some(sentence),
+            (Event::Said, said) => said,
             _ => None,
         })
     }
@@ -189,14 +197,14 @@ fn the_stop_gesture_does_not_wait_for_the_hand_to_leave() {
         let samples = Session::new(Mount::DEFAULT, 0.03, &mut rng).perform(&acts, 110.0);
         let events = bench.read(&mut Reader::new(), &samples);
         let stop = events.iter().find_map(|event| match event {
-            Event::Stop(sentence) => Some(words(sentence)),
+            (Event::Stop, said) => said.as_ref().map(words),
             _ => None,
         });
         in_time += usize::from(stop == Some(vec![(Some(Category::ACTION), STOP)]));
         assert!(
             !events
                 .iter()
-                .any(|e| matches!(e, Event::Said(s) if s.words().len() > 1)),
+                .any(|e| matches!(e, (Event::Said, Some(s)) if s.words().len() > 1)),
             "what was said before the stop is void"
         );
     }
@@ -229,7 +237,7 @@ fn frames_over_the_wire_say_the_same() {
     let direct = bench.read(&mut Reader::new(), &samples);
     let wired = bench.read(&mut Reader::new(), &received);
     assert_eq!(direct.len(), wired.len());
-    assert!(matches!(wired.last(), Some(Event::Said(s)) if words(s).len() == 2));
+    assert!(matches!(wired.last(), Some((Event::Said, Some(s))) if words(s).len() == 2));
 }
 
 #[test]
@@ -244,7 +252,7 @@ fn a_sensor_that_stops_in_the_middle_says_nothing() {
     assert!(
         events
             .iter()
-            .all(|e| matches!(e, Event::Opened(_) | Event::Closed(_)))
+            .all(|e| matches!(e, (Event::Opened(_) | Event::Closed(_), _)))
     );
     let wake = reader.next_wake();
     assert_eq!(reader.poll(wake), Some(Event::SensorLost));
@@ -285,7 +293,7 @@ fn whatever_the_frames_are_the_reader_survives() {
     }
     let mut reader = Reader::new();
     for event in bench.read(&mut reader, &spoilt) {
-        if let Event::Said(sentence) | Event::Stop(sentence) = event {
+        if let Some(sentence) = event.1 {
             assert_eq!(sentence.check(&bench.vocabulary), Ok(()));
         }
     }

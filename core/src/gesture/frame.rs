@@ -6,6 +6,8 @@
 //! next joint (proximal interphalangeal; the thumb's interphalangeal joint), its *tip* the end. The
 //! outermost joint of a finger bends with its middle one, so it tells nothing new and is left out.
 
+use serde::{Deserialize, Serialize};
+
 use super::vector::{Vector, dot};
 
 /// Number of fingers, thumb first.
@@ -18,7 +20,7 @@ pub const FURTHEST: f32 = 3276.7;
 pub const FASTEST: f32 = 32_767.0;
 
 /// Which hand it is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
     /// The left hand.
     Left,

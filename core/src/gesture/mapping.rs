@@ -23,7 +23,7 @@ pub enum Gesture {
 }
 
 /// Why a gesture cannot stand for an action.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MappingError {
     /// There is no such gesture.
     UnknownGesture(Gesture),
@@ -54,6 +54,11 @@ impl Mapping {
             shapes: [NOTHING; SHOWN],
             strokes: [NOTHING; STROKES],
         }
+    }
+
+    /// No gesture stands for anything any more, in place.
+    pub fn clear(&mut self) {
+        *self = Self::new();
     }
 
     /// From now on this gesture stands for this action, one of a vocabulary's `actions`.

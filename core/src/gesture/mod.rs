@@ -7,8 +7,12 @@
 //!
 //! [`reader::HandReader`] runs all of it: one sample in, at most one [`reader::Event`] out.
 
+mod bits;
+pub mod context;
+pub mod counters;
 pub mod evidence;
 pub mod frame;
+pub mod line;
 pub mod mapping;
 pub mod movement;
 pub mod path;

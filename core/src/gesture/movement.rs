@@ -3,7 +3,7 @@
 use super::frame::HandFrame;
 use super::mapping::STROKES;
 use super::path::Path;
-use super::stroke::{Comparison, Likely, Scale, Template};
+use super::stroke::{Comparison, Likely, Templates};
 use super::vector;
 use crate::time::Micros;
 
@@ -59,7 +59,9 @@ impl Movement {
 
     /// The hand has left, in the middle of whatever it did.
     pub fn clear(&mut self) {
-        *self = Self::new();
+        self.restart();
+        self.came = None;
+        self.comparison = None;
     }
 
     /// Takes one frame. Movements of a hand that may not gesture now (`free` is false), as it points
@@ -69,8 +71,7 @@ impl Movement {
         clock: Micros,
         frame: &HandFrame,
         free: bool,
-        templates: &[Template],
-        scale: &Scale,
+        templates: &Templates<'_>,
     ) -> Option<Likely<STROKES>> {
         let came = *self.came.get_or_insert(clock);
         let speed = vector::length(frame.velocity);
@@ -87,10 +88,7 @@ impl Movement {
                 return None;
             }
         }
-        let likely = self
-            .comparison
-            .as_mut()?
-            .step(templates, scale, PER_FRAME)?;
+        let likely = self.comparison.as_mut()?.step(templates, PER_FRAME)?;
         self.comparison = None;
         Some(likely)
     }

@@ -8,6 +8,7 @@
 //! 1 / (1 + distance) is nearly flat always.)
 
 use heapless::Vec;
+use serde::{Deserialize, Serialize};
 
 use super::frame::HandFrame;
 use super::vector::{self, Vector};
@@ -23,12 +24,21 @@ pub struct Ray {
 }
 
 /// Where the hand sensor stands in the robot's base frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mount {
     /// The sensor's x, y and z axis in the base frame, each a unit vector.
     pub axes: [Vector; 3],
     /// The sensor's origin in the base frame, m.
     pub origin: Vector,
+}
+
+/// Why a sensor cannot stand so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MountError {
+    /// The axes are not three unit vectors, right-handed and at right angles.
+    Axes,
+    /// The origin is not within 100 m.
+    Origin,
 }
 
 impl Mount {
@@ -38,6 +48,28 @@ impl Mount {
         axes: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
         origin: [0.0; 3],
     };
+
+    /// Checks what may have come from anywhere: axes of length 1 (to within a hundredth) that stand
+    /// upright on each other and are right-handed, an origin within 100 m.
+    ///
+    /// # Errors
+    /// The first [`MountError`] found.
+    pub fn check(&self) -> Result<(), MountError> {
+        let [x, y, z] = self.axes;
+        let off = vector::distance(vector::cross(x, y), z);
+        let units = self.axes.iter().all(|a| {
+            let length = vector::length(*a);
+            (0.99..=1.01).contains(&length)
+        });
+        // The comparison is false for NaN.
+        if !(units && off < 0.03) {
+            return Err(MountError::Axes);
+        }
+        if !self.origin.iter().all(|x| (-100.0..=100.0).contains(x)) {
+            return Err(MountError::Origin);
+        }
+        Ok(())
+    }
 
     /// A direction of the sensor in the base frame.
     #[must_use]
@@ -80,15 +112,21 @@ pub fn miss(ray: &Ray, point: Vector) -> f32 {
 }
 
 /// How well one person aims.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
-    /// Standard deviation of the miss in each of two directions, rad.
+    /// Standard deviation of the miss in each of two directions, rad, 0.001..=1.
     pub sigma: f32,
-    /// Probability that a pointing hand means nothing in the scene.
+    /// Probability that a pointing hand means nothing in the scene, 0..1.
     pub nothing: f32,
 }
 
 impl Aim {
+    /// Checks what may have come from anywhere: both numbers in their ranges.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        (1e-3..=1.0).contains(&self.sigma) && (0.0..1.0).contains(&self.nothing)
+    }
+
     /// Five degrees, as people reach who see no cursor, and one gesture in ten at nothing.
     pub const DEFAULT: Self = Self {
         sigma: 0.087,
@@ -221,6 +259,29 @@ mod tests {
     fn what_lies_behind_or_far_beside_is_not_meant() {
         let m = among(&[at(180.0), at(90.0), at(35.0)]);
         assert!(m.nothing > 0.99, "{m:?}");
+    }
+
+    #[test]
+    fn a_mount_or_aim_that_cannot_be_is_refused() {
+        assert_eq!(Mount::DEFAULT.check(), Ok(()));
+        let mut left_handed = Mount::DEFAULT;
+        left_handed.axes.swap(0, 1);
+        assert_eq!(left_handed.check(), Err(MountError::Axes));
+        let mut far = Mount::DEFAULT;
+        for bad in [f32::NAN, f32::INFINITY, 101.0] {
+            far.origin[2] = bad;
+            assert_eq!(far.check(), Err(MountError::Origin));
+        }
+        assert!(Aim::DEFAULT.is_sound());
+        for sigma in [f32::NAN, 0.0, -1.0, 1.5] {
+            assert!(
+                !Aim {
+                    sigma,
+                    ..Aim::DEFAULT
+                }
+                .is_sound()
+            );
+        }
     }
 
     #[test]

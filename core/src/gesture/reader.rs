@@ -6,57 +6,23 @@
 //! of several actions the last counts, as hands pass through shapes on their way. The stop gesture
 //! waits for nothing.
 
+use super::context::{Context, Event};
+use super::counters::{SampleCounters, count};
 use super::evidence::{Change, Evidence, Settings};
-use super::frame::HandFrame;
-use super::mapping::{Gesture, Mapping, STROKES};
+use super::frame::{HandFrame, Side};
+use super::mapping::{Gesture, STROKES};
 use super::movement::Movement;
-use super::pointing::{self, Aim, Meant, Mount};
+use super::pointing::{self, Aim, Meant};
 use super::shape::{self, SHAPES, Shape};
 use super::shape_table::NETWORK;
-use super::stroke::{Likely, Scale, Template};
-use super::tracking::{SampleCounters, Step, Tracking, count};
+use super::stroke::Likely;
+use super::tracking::{Step, Tracking};
 use super::vector;
-use super::wire::Sample;
+use super::wire::{Sample, WireError};
 use super::word::{Deed, Open, Target, action_word, meant, target_word};
 use crate::scene::Scene;
 use crate::sentence::{GESTURE, Sentence, Word};
 use crate::time::Micros;
-use crate::vocabulary::Vocabulary;
-
-/// What the reader goes by: fixed while a hand is there.
-#[derive(Clone, Copy, Debug)]
-pub struct Context<'a, const N: usize, const C: usize, const F: usize, const E: usize> {
-    /// What can be said and shown.
-    pub vocabulary: &'a Vocabulary<N, C, F>,
-    /// What can be pointed at.
-    pub scene: &'a Scene<E, F>,
-    /// Which gestures stand for which actions.
-    pub mapping: &'a Mapping,
-    /// Examples of the dynamic gestures.
-    pub templates: &'a [Template],
-    /// How distances from them become probabilities.
-    pub scale: &'a Scale,
-    /// Where the sensor stands.
-    pub mount: &'a Mount,
-    /// How well the person aims.
-    pub aim: &'a Aim,
-}
-
-/// What a sample led to.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Event<const W: usize, const C: usize, const N: usize> {
-    /// A word has begun; there are this many before it.
-    Opened(u8),
-    /// A word is complete; there are this many now.
-    Closed(u8),
-    /// The hand has left: this is what it said.
-    Said(Sentence<W, C, N>),
-    /// The stop gesture. The sentence is this one action, nothing is waited for.
-    Stop(Sentence<W, C, N>),
-    /// The sensor fell silent while a hand was there. What it had said is forgotten, as nobody knows
-    /// what it would have said.
-    SensorLost,
-}
 
 /// Reads one person's hand. `N` options, `C` categories, `W` words, `E` things at most.
 #[derive(Debug)]
@@ -67,8 +33,12 @@ pub struct HandReader<const N: usize, const C: usize, const W: usize> {
     movement: Movement,
     open: Option<Open<N>>,
     sentence: Sentence<W, C, N>,
+    /// Whether the sentence is over: the next word begins another.
+    over: bool,
     /// Target words so far.
     targets: u8,
+    /// What the last movement may have been.
+    likely: Option<Likely<STROKES>>,
 }
 
 impl<const N: usize, const C: usize, const W: usize> Default for HandReader<N, C, W> {
@@ -88,7 +58,9 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
             movement: Movement::new(),
             open: None,
             sentence: Sentence::new(GESTURE),
+            over: false,
             targets: 0,
+            likely: None,
         }
     }
 
@@ -98,26 +70,75 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         &self.counters
     }
 
+    /// Counts bytes that gave no sample.
+    pub fn count_error(&mut self, error: WireError) {
+        count(match error {
+            WireError::Framing(_) | WireError::Length(_) => &mut self.counters.damaged,
+            WireError::Version(_) => &mut self.counters.foreign,
+            WireError::Frame(_) => &mut self.counters.unsound,
+        });
+    }
+
+    /// Counts a sample that came before there was anything to read it by.
+    pub fn count_unready(&mut self) {
+        count(&mut self.counters.unready);
+    }
+
+    /// The hand that is followed.
+    #[must_use]
+    pub fn hand(&self) -> Option<Side> {
+        self.tracking.hand()
+    }
+
     /// Probability of every [`Shape`], of the last moments.
     #[must_use]
     pub fn shapes(&self) -> &[f32; SHAPES] {
         self.shapes.belief()
     }
 
+    /// The shape that is being shown, by its number.
+    #[must_use]
+    pub fn shown(&self) -> Option<u8> {
+        self.shapes.shown()
+    }
+
+    /// What the hand's last movement may have been; `None` before the first.
+    #[must_use]
+    pub fn likely(&self) -> Option<&Likely<STROKES>> {
+        self.likely.as_ref()
+    }
+
     /// The complete words so far.
     #[must_use]
     pub fn words(&self) -> &[Word<C, N>] {
-        self.sentence.words()
+        if self.over {
+            &[]
+        } else {
+            self.sentence.words()
+        }
+    }
+
+    /// What the hand said: after [`Event::Said`] or [`Event::Stop`] and until the next word.
+    #[must_use]
+    pub fn said(&self) -> &Sentence<W, C, N> {
+        &self.sentence
+    }
+
+    /// Whether the hand is in the middle of a sentence.
+    #[must_use]
+    pub fn is_showing(&self) -> bool {
+        self.open.is_some() || !self.words().is_empty()
     }
 
     /// What the pointing hand means so far; `None` when it does not point.
     #[must_use]
     pub fn meant<const F: usize, const E: usize>(
         &self,
-        context: &Context<'_, N, C, F, E>,
+        scene: &Scene<E, F>,
+        aim: &Aim,
     ) -> Option<Meant<E>> {
         match &self.open {
-            Some(Open::Target(target)) => Some(meant(&target.ray()?, context.scene, context.aim)),
+            Some(Open::Target(target)) => Some(meant(&target.ray()?, scene, aim)),
             _ => None,
         }
     }
@@ -129,7 +150,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
     }
 
     /// Notices a sensor that has stopped.
-    pub fn poll(&mut self, now: Micros) -> Option<Event<W, C, N>> {
+    pub fn poll(&mut self, now: Micros) -> Option<Event> {
         if !self.tracking.is_silent(now, &mut self.counters) {
             return None;
         }
@@ -137,11 +158,24 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         Some(Event::SensorLost)
     }
 
-    fn forget(&mut self) {
+    /// Forgets the hand and what it was saying; the counters stay.
+    pub fn forget(&mut self) {
+        self.tracking.forget();
+        self.leave();
+        self.begin_anew();
+    }
+
+    /// The hand is gone.
+    fn leave(&mut self) {
         self.shapes = Evidence::new();
         self.movement.clear();
         self.open = None;
-        self.sentence = Sentence::new(GESTURE);
+        self.likely = None;
+    }
+
+    fn begin_anew(&mut self) {
+        self.sentence.restart(GESTURE);
+        self.over = false;
         self.targets = 0;
     }
 
@@ -151,7 +185,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         now: Micros,
         sample: &Sample,
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
+    ) -> Option<Event> {
         let step = self.tracking.take(now, sample, &mut self.counters);
         match (step, sample) {
             (Step::Left, _) => self.finish(context),
@@ -164,11 +198,12 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
     fn finish<const F: usize, const E: usize>(
         &mut self,
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
+    ) -> Option<Event> {
         self.close(context);
-        let said = core::mem::replace(&mut self.sentence, Sentence::new(GESTURE));
-        self.forget();
-        (!said.words().is_empty()).then_some(Event::Said(said))
+        self.leave();
+        let said = !self.words().is_empty();
+        self.over = true;
+        said.then_some(Event::Said)
     }
 
     /// Puts the open word into the sentence. A word too many is dropped: no action has so many
@@ -176,10 +211,13 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
     fn close<const F: usize, const E: usize>(
         &mut self,
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
+    ) -> Option<Event> {
         let word = match self.open.take()? {
             Open::Target(target) => {
                 let meant = meant(&target.ray()?, context.scene, context.aim);
+                if self.over {
+                    self.begin_anew();
+                }
                 let first = self.targets == 0;
                 self.targets = self.targets.saturating_add(1);
                 target_word(&meant, context.scene, context.vocabulary, first)
@@ -189,13 +227,16 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         self.push(word?)
     }
 
-    fn push(&mut self, word: Word<C, N>) -> Option<Event<W, C, N>> {
+    fn push(&mut self, word: Word<C, N>) -> Option<Event> {
+        if self.over {
+            self.begin_anew();
+        }
         self.sentence.push(word).ok()?;
         Some(Event::Closed(self.count()))
     }
 
     fn count(&self) -> u8 {
-        u8::try_from(self.sentence.words().len()).unwrap_or(u8::MAX)
+        u8::try_from(self.words().len()).unwrap_or(u8::MAX)
     }
 
     /// One frame of the hand.
@@ -204,7 +245,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         frame: &HandFrame,
         seconds: f32,
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
+    ) -> Option<Event> {
         let clock = self.tracking.clock();
         let change = match shape::features(frame) {
             Ok(features) => {
@@ -218,22 +259,18 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
             }
         };
         self.gather(frame, clock, context);
-        let still = matches!(self.shown(), Some(Shape::Grab | Shape::Point));
-        let stroke = self
-            .movement
-            .follow(clock, frame, !still, context.templates, context.scale);
+        let still = [Shape::Grab, Shape::Point].map(|shape| Some(shape as u8));
+        let free = !still.contains(&self.shown());
+        let stroke = self.movement.follow(clock, frame, free, &context.templates);
+        if stroke.is_some() {
+            self.likely = stroke;
+        }
         if let Some(Change::Begun(shape)) = change
             && let Some(event) = self.begin(shape, clock, context)
         {
             return Some(event);
         }
         self.stroke(&stroke?, context)
-    }
-
-    /// The shape that is being shown.
-    fn shown(&self) -> Option<Shape> {
-        let shown = self.shapes.shown()?;
-        Shape::ALL.get(usize::from(shown)).copied()
     }
 
     /// Adds what this frame shows to the open word, while the gesture that opened it is shown.
@@ -269,7 +306,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         shape: u8,
         clock: Micros,
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
+    ) -> Option<Event> {
         if shape == Shape::Grab as u8 {
             return self.close(context);
         }
@@ -306,7 +343,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         &mut self,
         likely: &Likely<STROKES>,
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
+    ) -> Option<Event> {
         let best = crate::math::argmax(&likely.gestures)?;
         let p = likely.gestures.get(best)?;
         if *p <= likely.none {
@@ -338,13 +375,13 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         &mut self,
         likelihoods: &[f32; N],
         context: &Context<'_, N, C, F, E>,
-    ) -> Option<Event<W, C, N>> {
-        let mut sentence = Sentence::new(GESTURE);
+    ) -> Option<Event> {
         let actions = context.vocabulary.actions().len();
-        sentence.push(action_word(likelihoods, actions)?).ok()?;
+        let word = action_word(likelihoods, actions)?;
         self.open = None;
-        self.sentence = Sentence::new(GESTURE);
-        self.targets = 0;
-        Some(Event::Stop(sentence))
+        self.begin_anew();
+        self.sentence.push(word).ok()?;
+        self.over = true;
+        Some(Event::Stop)
     }
 }

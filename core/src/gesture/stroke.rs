@@ -3,7 +3,10 @@
 //! A stroke is compared with templates by dynamic time warping in a band of three points, and by its
 //! length and duration; the distances become probabilities of gestures and of *none of these*.
 
+use serde::{Deserialize, Serialize};
+
 use super::path::{POINTS, Stroke};
+use super::stroke_table::{SCALE, TEMPLATES};
 use super::vector::Vector;
 use crate::math;
 
@@ -15,7 +18,7 @@ const BAND: usize = 3;
 pub const STEPS: f32 = 48.0;
 
 /// One example of a gesture, 60 bytes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Template {
     /// Which gesture it is an example of.
     pub gesture: u8,
@@ -41,7 +44,7 @@ impl Template {
 }
 
 /// How distances become probabilities; found in training.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scale {
     /// A warped distance (squared, per point) that makes a gesture e times less probable.
     pub shape: f32,
@@ -51,6 +54,40 @@ pub struct Scale {
     pub seconds: f32,
     /// The distance at which *none of these* is as probable as the gesture.
     pub reach: f32,
+}
+
+/// The examples that a stroke is compared with.
+#[derive(Clone, Copy, Debug)]
+pub struct Templates<'a> {
+    /// Of gestures that a unit knows without being taught.
+    pub known: &'a [Template],
+    /// Of gestures that it was taught.
+    pub learned: &'a [Template],
+    /// How distances from any of them become probabilities.
+    pub scale: &'a Scale,
+}
+
+impl Templates<'static> {
+    /// What a unit knows without being taught.
+    pub const KNOWN: Self = Self {
+        known: &TEMPLATES,
+        learned: &[],
+        scale: &SCALE,
+    };
+}
+
+impl Templates<'_> {
+    /// How many examples there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.known.len().saturating_add(self.learned.len())
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// The distance of a stroke from a template: squared, per point, warped, with the differences in
@@ -132,13 +169,10 @@ impl<const G: usize> Comparison<G> {
 
     /// Compares with the next `count` templates. Gives the probabilities when all are done;
     /// templates of gestures beyond `G` are left out.
-    pub fn step(
-        &mut self,
-        templates: &[Template],
-        scale: &Scale,
-        count: usize,
-    ) -> Option<Likely<G>> {
-        for template in templates.iter().skip(self.next).take(count) {
+    pub fn step(&mut self, templates: &Templates<'_>, count: usize) -> Option<Likely<G>> {
+        let scale = templates.scale;
+        let all = templates.known.iter().chain(templates.learned);
+        for template in all.skip(self.next).take(count) {
             if let Some(least) = self.least.get_mut(usize::from(template.gesture)) {
                 *least = least.min(distance(&self.stroke, template, scale, *least));
             }
@@ -171,6 +205,14 @@ mod tests {
         seconds: 0.01,
         reach: 0.3,
     };
+
+    fn among(learned: &[Template]) -> Templates<'_> {
+        Templates {
+            known: &[],
+            learned,
+            scale: &SCALE,
+        }
+    }
 
     fn stroke(to: impl Fn(f64) -> [f64; 3]) -> Stroke {
         let way = (0..50).map(|i| to(f64::from(i) / 49.0).map(|x| x as f32));
@@ -208,8 +250,8 @@ mod tests {
             Template::new(2, &stroke(|t| [0.0, 300.0 * t, 0.0])),
         ];
         let mut comparison = Comparison::<3>::new(arc(-20.0));
-        assert_eq!(comparison.step(&templates, &SCALE, 2), None);
-        let likely = comparison.step(&templates, &SCALE, 2).unwrap();
+        assert_eq!(comparison.step(&among(&templates), 2), None);
+        let likely = comparison.step(&among(&templates), 2).unwrap();
         assert!(likely.gestures[0] > 0.95, "{likely:?}");
     }
 
@@ -220,7 +262,7 @@ mod tests {
             let angle = t * 6.0;
             [100.0 * angle.cos(), 100.0 * angle.sin(), 0.0]
         }));
-        let likely = comparison.step(&templates, &SCALE, 9).unwrap();
+        let likely = comparison.step(&among(&templates), 9).unwrap();
         assert!(likely.none > 0.9, "{likely:?}");
     }
 

@@ -1,8 +1,7 @@
 //! Which hand is followed, and what time its frames say it is: everything odd about a stream of
 //! samples is noticed here, and counted.
 
-use serde::{Deserialize, Serialize};
-
+use super::counters::{SampleCounters, count};
 use super::frame::{HandFrame, Side};
 use super::wire::Sample;
 use crate::time::Micros;
@@ -16,43 +15,6 @@ pub const LEFT: Micros = Micros::from_millis(350);
 
 /// A sensor that sends nothing for this long, neither hand nor its absence, has stopped.
 pub const SILENT: Micros = Micros::from_millis(700);
-
-/// What has become of samples since the start. Every counter stops at its largest value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SampleCounters {
-    /// Frames of the followed hand that were used.
-    pub used: u32,
-    /// Left out: came sooner after the one before than 4 ms.
-    pub hurried: u32,
-    /// Left out: earlier than the one before.
-    pub backwards: u32,
-    /// Left out: another hand than the one that is followed.
-    pub other_hand: u32,
-    /// Used for what they tell, but some finger was not followed, or made no shape.
-    pub shapeless: u32,
-    /// Left out: a number in it cannot be.
-    pub unsound: u32,
-    /// Times that the sensor fell silent while a hand was there.
-    pub silences: u32,
-}
-
-impl SampleCounters {
-    /// Nothing has happened yet.
-    pub const ZERO: Self = Self {
-        used: 0,
-        hurried: 0,
-        backwards: 0,
-        other_hand: 0,
-        shapeless: 0,
-        unsound: 0,
-        silences: 0,
-    };
-}
-
-/// Adds one, as far as there is room.
-pub(super) fn count(counter: &mut u32) {
-    *counter = counter.saturating_add(1);
-}
 
 /// What a sample means for the hand that is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -198,9 +160,14 @@ impl Tracking {
             return false;
         }
         count(&mut counters.silences);
+        self.forget();
+        true
+    }
+
+    /// Follows no hand any more, and takes the next sample for the sensor's first.
+    pub fn forget(&mut self) {
         self.hand = None;
         self.running = false;
-        true
     }
 
     /// When [`Tracking::is_silent`] must be asked next.

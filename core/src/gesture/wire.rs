@@ -15,21 +15,14 @@
 //! | 26..88 | 45 numbers of 11 bits, two's complement, of 0.1 mm, lowest bit first: for each finger knuckle - palm, middle - knuckle, tip - middle, each x, y, z; one bit stays 0 |
 //!
 //! Parts of a hand that is not there, or of a finger that is not followed, are 0 and ignored. Around
-//! it goes the framing of the host link ([`crate::protocol::stuffing`]): CRC-32, COBS, a zero byte.
+//! it goes the framing of the host link ([`super::line`]): CRC-32, COBS, a zero byte.
 
-use postcard::ser_flavors::Flavor;
-
+use super::bits::{Reader, Writer};
 use super::frame::{FINGERS, Finger, FrameError, HandFrame, Part, Side};
-use crate::protocol::stuffing::{self, FrameReader, FrameWriter, Outbox};
+use crate::protocol::stuffing;
 
 /// Bytes of a frame before framing.
 pub const PAYLOAD: usize = 88;
-
-/// Bytes of a frame with CRC, stuffing and end.
-pub const FRAMED: usize = 94;
-
-/// Bytes of the payload with its CRC, which a receiver must hold.
-const HELD: usize = PAYLOAD + 4;
 
 const BITS: u32 = 11;
 const HALF: i32 = 1 << (BITS - 1);
@@ -70,10 +63,7 @@ pub enum WireError {
 /// [`WireError::Frame`] for a frame that fails [`HandFrame::check`] or whose joints lie more than
 /// 102.3 mm apart along an axis ([`FrameError::OutOfRange`]), as those of no hand do.
 pub fn encode(sample: &Sample) -> Result<[u8; PAYLOAD], WireError> {
-    let mut out = Writer {
-        bytes: [0; PAYLOAD],
-        at: 0,
-    };
+    let mut out = Writer::new();
     let frame = match sample {
         Sample::Nothing(time) => {
             out.bits(u32::from(VERSION), 8);
@@ -126,29 +116,13 @@ pub fn encode(sample: &Sample) -> Result<[u8; PAYLOAD], WireError> {
     Ok(out.bytes)
 }
 
-/// Puts a sample with its framing behind what waits in `out`.
-///
-/// # Errors
-/// That of [`encode`], or [`stuffing::FrameError::Oversized`] when `out` is full; nothing is
-/// written then.
-pub fn send<const OUT: usize>(sample: &Sample, out: &mut Outbox<OUT>) -> Result<(), WireError> {
-    let payload = encode(sample)?;
-    let full = |_| WireError::Framing(stuffing::FrameError::Oversized);
-    let mut writer = FrameWriter::new(out).map_err(full)?;
-    writer.try_extend(&payload).map_err(full)?;
-    writer.finalize().map_err(full)
-}
-
 /// Reads a sample from its 88 bytes.
 ///
 /// # Errors
 /// [`WireError`] for anything that [`encode`] does not give.
 pub fn decode(bytes: &[u8]) -> Result<Sample, WireError> {
     let length = || WireError::Length(u8::try_from(bytes.len()).unwrap_or(u8::MAX));
-    let mut input = Reader {
-        bytes: bytes.try_into().map_err(|_| length())?,
-        at: 0,
-    };
+    let mut input = Reader::new(bytes.try_into().map_err(|_| length())?);
     let header = input.bits(8) as u8;
     if header & VERSION == 0 {
         return Err(WireError::Version(header));
@@ -197,30 +171,6 @@ pub fn decode(bytes: &[u8]) -> Result<Sample, WireError> {
     Ok(Sample::Hand(frame))
 }
 
-/// The sensor's end of a serial line: bytes in any chunking become samples.
-#[derive(Debug, Default)]
-pub struct SensorLine {
-    reader: FrameReader<HELD>,
-}
-
-impl SensorLine {
-    /// At the beginning of a frame.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            reader: FrameReader::new(),
-        }
-    }
-
-    /// Takes one byte, and gives what it completes.
-    pub fn push(&mut self, byte: u8) -> Option<Result<Sample, WireError>> {
-        Some(match self.reader.push(byte)? {
-            Ok(payload) => decode(payload),
-            Err(error) => Err(WireError::Framing(error)),
-        })
-    }
-}
-
 /// Tenths of a millimetre; a checked coordinate has at most 32,767 of them.
 fn tenths(x: f32) -> i32 {
     round(x * 10.0)
@@ -231,53 +181,12 @@ fn round(x: f32) -> i32 {
     (x + if x < 0.0 { -0.5 } else { 0.5 }) as i32
 }
 
-/// Appends numbers of any width, lowest bit first.
-struct Writer {
-    bytes: [u8; PAYLOAD],
-    at: usize,
-}
-
-impl Writer {
-    fn bits(&mut self, value: u32, width: u32) {
-        for i in 0..width {
-            let bit = value.wrapping_shr(i) as u8 & 1;
-            if let Some(byte) = self.bytes.get_mut(self.at / 8) {
-                *byte |= bit.wrapping_shl((self.at % 8) as u32);
-            }
-            self.at = self.at.wrapping_add(1);
-        }
-    }
-}
-
-/// Takes numbers of any width, lowest bit first; zeros beyond the end.
-struct Reader<'a> {
-    bytes: &'a [u8; PAYLOAD],
-    at: usize,
-}
-
-impl Reader<'_> {
-    /// `width` of at most 32 bits. Eight bytes around the place hold any such number.
-    fn bits(&mut self, width: u32) -> u32 {
-        let mut window = 0_u64;
-        let bytes = self.bytes.iter().skip(self.at / 8).take(5);
-        for (byte, place) in bytes.zip((0_u32..).step_by(8)) {
-            window |= u64::from(*byte).wrapping_shl(place);
-        }
-        let value = window.wrapping_shr((self.at % 8) as u32) as u32;
-        self.at = self.at.wrapping_add(width as usize);
-        value & u32::MAX.wrapping_shr(32_u32.wrapping_sub(width))
-    }
-
-    fn signed(&mut self, width: u32) -> i32 {
-        let unused = 32_u32.wrapping_sub(width);
-        (self.bits(width).wrapping_shl(unused) as i32).wrapping_shr(unused)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gesture::line::{FRAMED, SensorLine, send};
     use crate::gesture::vector::{Vector, add};
+    use crate::protocol::stuffing::Outbox;
     use proptest::prelude::*;
     use std::vec::Vec;
 

@@ -4,6 +4,9 @@
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
+use super::hand::{
+    HandFault, HandSettings, HandStatistics, HandView, Meanings, SampleBytes, TemplatesPart,
+};
 use super::link::{Counters, Opening};
 use crate::category::Category;
 use crate::decide::Decision;
@@ -40,6 +43,16 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     Robot(RobotStatus),
     /// Tell your statistics.
     AskStatistics,
+    /// What a hand sensor at the host saw.
+    Sample(SampleBytes),
+    /// Which gestures stand for which actions; in place of all that was said about it before.
+    Meanings(Meanings),
+    /// How to read a hand.
+    Hand(HandSettings),
+    /// Part of the templates of dynamic gestures.
+    Templates(TemplatesPart),
+    /// Tell what you see of a hand.
+    AskHand,
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
@@ -67,6 +80,14 @@ pub enum ToHost<const N: usize, const C: usize> {
     Fault(Fault),
     /// What the unit has counted.
     Statistics(Statistics),
+    /// A hand has begun to say something; `false`: it is over.
+    Showing(bool),
+    /// Part of what a hand said, as the unit goes by it from now on.
+    Shown(SentencePart<C, N>),
+    /// Asked for: what the unit sees of a hand.
+    Hand(HandView),
+    /// Asked for: what has become of samples.
+    HandStatistics(HandStatistics),
 }
 
 impl<const N: usize, const C: usize> Opening for ToHost<N, C> {
@@ -219,6 +240,12 @@ pub enum Loaded {
     Scene(u32),
     /// The configuration.
     Configuration,
+    /// Which gestures stand for which actions.
+    Meanings,
+    /// How to read a hand.
+    Hand,
+    /// So many templates.
+    Templates(u8),
 }
 
 /// A decision and what it was made of.
@@ -321,6 +348,8 @@ pub enum Fault {
     },
     /// The host was not heard for too long: what was waiting is forgotten.
     HostLost,
+    /// Something about hands.
+    Hand(HandFault),
 }
 
 /// What a unit has counted since it started.

@@ -4,10 +4,11 @@
 //! of those bytes, little end first; the whole is COBS-stuffed and ended by a zero byte, so that a
 //! receiver that lost its place finds it again at the next zero.
 //!
-//! * [`message`]: what is said.
+//! * [`message`]: what is said; [`hand`]: what is said about hands.
 //! * [`stuffing`]: bytes to frames and back.
 //! * [`link`]: one end of a link: sequence numbers and a counter for every kind of lost frame.
 
+pub mod hand;
 pub mod link;
 pub mod message;
 pub mod stuffing;
@@ -18,4 +19,4 @@ pub const VERSION: u16 = 1;
 /// A digest of how every message is put into bytes: the CRC-32 over the golden frames in
 /// `tests/expected/frames-v1.txt`. A test holds it to them, so that a change of any message's form
 /// cannot go unnoticed, and both ends exchange it in their Hello.
-pub const SCHEMA: u32 = 0x6e15_fa3b;
+pub const SCHEMA: u32 = 0x8260_cb43;

@@ -3,12 +3,15 @@
 //!
 //! A conversation opens with the host's Hello, which empties the unit: whatever the host relied on
 //! before is loaded anew. Then come vocabulary, scene and configuration ([`loading`]), sentences and
-//! answers ([`pairing`]), and heartbeats both ways. Everything unexpected is answered by a
+//! answers ([`pairing`]), samples of a hand sensor ([`hand`]), and heartbeats both ways. Everything unexpected is answered by a
 //! [`Fault`] and changes nothing. A unit that has restarted answers the first thing it hears with its
 //! own Hello, by which the host knows to open the conversation again.
 
+pub mod hand;
 pub mod loading;
 pub mod pairing;
+pub mod taught;
+mod view;
 
 pub use crate::protocol::message::Statistics;
 
@@ -20,6 +23,7 @@ use crate::protocol::stuffing::Outbox;
 use crate::protocol::{SCHEMA, VERSION};
 use crate::time::Micros;
 use crate::trace::Trace;
+use hand::Hand;
 use loading::Loading;
 use pairing::Pairing;
 
@@ -50,6 +54,7 @@ pub struct Unit<
     beat: Micros,
     loading: Loading<N, C, F, E>,
     pairing: Pairing<N, C, W>,
+    hand: Hand<N, C, W>,
     trace: Trace<C, N>,
     configuration: Configuration,
     /// Whether the robot is carrying out a command.
@@ -79,6 +84,7 @@ impl<
             beat: Micros(0),
             loading: Loading::new(),
             pairing: Pairing::new(),
+            hand: Hand::new(),
             trace: Trace::new(),
             configuration: Configuration::DEFAULT,
             moving: false,
@@ -138,9 +144,11 @@ impl<
             self.open = false;
             self.moving = false;
             self.pairing.clear();
+            self.hand.forget();
             self.fault(Fault::HostLost);
             return;
         }
+        self.watch_sensor(now);
         self.settle(now);
         if now >= self.beat {
             self.beat = now.after(HEARTBEAT);
@@ -158,6 +166,7 @@ impl<
         if self.open {
             self.beat
                 .min(self.pairing.due())
+                .min(self.hand.next_wake())
                 .min(self.heard.after(HOST_LOST))
         } else {
             Micros::NEVER
@@ -209,6 +218,7 @@ impl<
             ToUnit::Hello(_) | ToUnit::Heartbeat(_) => Ok(()),
             ToUnit::Vocabulary(part) => self.loading.take_vocabulary(part).map(|done| {
                 self.pairing.clear();
+                self.hand.unlearn_meanings();
                 self.loaded(done);
             }),
             ToUnit::Scene(part) => self.loading.take_scene(part).map(|done| self.loaded(done)),
@@ -222,6 +232,17 @@ impl<
                 self.send(&ToHost::Statistics(self.statistics()));
                 Ok(())
             }
+            ToUnit::Sample(bytes) => {
+                self.take_sample(now, bytes);
+                Ok(())
+            }
+            ToUnit::Meanings(meanings) => self.take_meanings(meanings),
+            ToUnit::Hand(settings) => self.take_hand_settings(settings),
+            ToUnit::Templates(part) => self.hand.take_templates(part).map(|done| self.loaded(done)),
+            ToUnit::AskHand => {
+                self.tell_hand();
+                Ok(())
+            }
         };
         if let Err(fault) = result {
             self.fault(fault);
@@ -233,6 +254,7 @@ impl<
         self.outbox.abandon();
         self.loading.clear();
         self.pairing.clear();
+        self.hand.clear();
         self.configuration = Configuration::DEFAULT;
         self.moving = false;
         self.open = (host.version, host.schema) == (VERSION, SCHEMA);

@@ -10,14 +10,30 @@ use crate::decide::{Decision, Outcome};
 use crate::fuse::{Situation, fuse, says_clearly};
 use crate::intent::Intent;
 use crate::protocol::message::{Decided, Fault, SentencePart, ToHost, Why, WhyActions};
-use crate::sentence::{Observations, Sentence};
+use crate::sentence::{GESTURE, Observations, Sentence};
 use crate::time::Micros;
 
 /// The modality under which answers to questions are fused with what they were asked about.
 pub const ANSWER: u8 = 3;
 
+/// How long a decision waits for a hand that is in the middle of a sentence, from the first sentence
+/// of another modality on. People point for seconds, and say what they point at in the middle of it.
+pub const HAND_PATIENCE: Micros = Micros::from_millis(10_000);
+
+/// How often it looks whether the hand has finished.
+const LOOKING: Micros = Micros::from_millis(100);
+
 /// How long a question stays open.
 pub const QUESTION: Micros = Micros::from_millis(60_000);
+
+/// Where a sentence comes from that is to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    /// The host said it.
+    Host,
+    /// The hand reader read it.
+    Hand,
+}
 
 /// Sentences that wait for others, or for an answer.
 #[derive(Debug)]
@@ -29,6 +45,8 @@ pub struct Pairing<const N: usize, const C: usize, const W: usize> {
     /// Whether all of it has arrived and nobody has looked at it yet.
     complete: bool,
     due: Micros,
+    /// Until when a hand that is in the middle of a sentence is waited for.
+    patience: Micros,
     /// The decision that asked, and until when its answer is taken.
     question: Option<(u32, Micros)>,
     numbered: u32,
@@ -50,6 +68,7 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
             answers: None,
             complete: false,
             due: Micros::NEVER,
+            patience: Micros(0),
             question: None,
             numbered: 0,
         }
@@ -59,6 +78,7 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
     pub fn clear(&mut self) {
         self.observations.clear();
         self.due = Micros::NEVER;
+        self.patience = Micros(0);
         self.question = None;
     }
 
@@ -115,24 +135,52 @@ impl<
     /// the message that completed it is out of the way, so that the stack holds one of the two.
     pub(super) fn settle(&mut self, now: Micros) {
         if core::mem::take(&mut self.pairing.complete) {
-            let looked_at = match self.pairing.answers {
-                None => self.observe(now),
-                Some(decision) => self.answer(now, decision),
-            };
-            if let Err(fault) = looked_at {
-                self.fault(fault);
-            }
+            self.look_at(now, Source::Host, self.pairing.answers);
         }
-        if self.pairing.is_due(now) {
+        if let Some(spoken) = self.hand.take_spoken() {
+            self.look_at_hand(now, spoken);
+        }
+        if self.pairing.is_due(now) && !self.waits_for_hand(now) {
             self.decide_pending(now);
         }
     }
 
+    /// Looks at a sentence: a command, or the answer to the question of that decision.
+    pub(super) fn look_at(&mut self, now: Micros, source: Source, answers: Option<u32>) {
+        let looked_at = match answers {
+            None => self.observe(now, source),
+            Some(decision) => self.answer(now, source, decision),
+        };
+        if let Err(fault) = looked_at {
+            self.fault(fault);
+        }
+    }
+
+    /// Whether what is due has to wait for a hand that has begun to say something.
+    fn waits_for_hand(&mut self, now: Micros) -> bool {
+        let waits = now < self.pairing.patience
+            && self.pairing.observations.get(GESTURE).is_none()
+            && self.hand.is_showing();
+        if waits {
+            self.pairing.due = now.after(LOOKING);
+        }
+        waits
+    }
+
+    /// The number of the decision whose question is open.
+    pub(super) fn question(&self, now: Micros) -> Option<u32> {
+        let (number, until) = self.pairing.question?;
+        (now < until).then_some(number)
+    }
+
     /// Looks at the sentence that has arrived: a clear stop is told at once, the last one expected
     /// makes the decision due, any other waits.
-    fn observe(&mut self, now: Micros) -> Result<(), Fault> {
+    fn observe(&mut self, now: Micros, source: Source) -> Result<(), Fault> {
         let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
-        let arrived = &self.pairing.arriving;
+        let arrived = match source {
+            Source::Host => &self.pairing.arriving,
+            Source::Hand => self.hand.said(),
+        };
         let modality = arrived.modality();
         let refused = |error| Fault::Sentence { modality, error };
         arrived.check(vocabulary).map_err(refused)?;
@@ -157,42 +205,53 @@ impl<
             observations,
             arriving,
             due,
+            patience,
             ..
         } = &mut self.pairing;
-        observations
-            .insert(&*arriving, vocabulary)
-            .map_err(refused)?;
+        let arrived = match source {
+            Source::Host => &*arriving,
+            Source::Hand => self.hand.said(),
+        };
+        observations.insert(arrived, vocabulary).map_err(refused)?;
         if *due == Micros::NEVER {
             *due = now.after(self.configuration.window);
+            *patience = now.after(HAND_PATIENCE);
         }
         let expected = self.configuration.expected;
         if observations.modalities() & expected == expected {
             *due = now;
+            *patience = Micros(0);
         }
         Ok(())
     }
 
     /// Looks at the answer that has arrived: what it says is fused, as one more modality, with what
     /// it was asked about and with the answers before it.
-    fn answer(&mut self, now: Micros, decision: u32) -> Result<(), Fault> {
+    fn answer(&mut self, now: Micros, source: Source, decision: u32) -> Result<(), Fault> {
         let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
         let Pairing {
             observations,
             arriving,
             due,
+            patience,
             question,
             ..
         } = &mut self.pairing;
+        let arrived = match source {
+            Source::Host => &*arriving,
+            Source::Hand => self.hand.said(),
+        };
         match *question {
             Some((asked, until)) if asked == decision && now < until => {}
             _ => return Err(Fault::NoQuestion { decision }),
         }
-        let appended = observations.append(ANSWER, arriving, vocabulary);
+        let appended = observations.append(ANSWER, arrived, vocabulary);
         appended.map_err(|error| Fault::Sentence {
             modality: ANSWER,
             error,
         })?;
         *due = now;
+        *patience = Micros(0);
         Ok(())
     }
 
@@ -208,7 +267,7 @@ impl<
         clear && (self.moving || present.nth(1).is_none())
     }
 
-    fn stop(&mut self, action: u8, modality: u8) {
+    pub(super) fn stop(&mut self, action: u8, modality: u8) {
         let intent = Intent {
             action,
             parameters: Vec::new(),

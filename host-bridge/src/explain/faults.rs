@@ -1,5 +1,8 @@
 //! What a unit did not take, in words, and why a decision of its is not acted upon.
 
+use deictic_core::gesture::mapping::MappingError;
+use deictic_core::gesture::pointing::MountError;
+use deictic_core::protocol::hand::HandFault;
 use deictic_core::protocol::message::Fault;
 
 use super::{Advice, profile_error, scene_error, sentence_error, vocabulary_error};
@@ -46,6 +49,58 @@ pub fn fault(fault: &Fault) -> Advice {
         Fault::HostLost => Advice::new(
             "the unit did not hear the bridge for two seconds and has forgotten what was waiting",
             "say the command again",
+        ),
+        Fault::Hand(fault) => hand_fault(fault),
+    }
+}
+
+fn hand_fault(fault: &HandFault) -> Advice {
+    match fault {
+        HandFault::Meaning(error) => mapping_error(error),
+        HandFault::Mount(MountError::Axes) => Advice::new(
+            "the hand sensor's axes do not stand at right angles, right-handed, each of length 1",
+            "look at `mount` in the scene file",
+        ),
+        HandFault::Mount(MountError::Origin) => Advice::new(
+            "the hand sensor stands further than 100 m from the robot",
+            "give its origin in metres, in `mount` of the scene file",
+        ),
+        HandFault::Aim => Advice::new(
+            "nobody aims like that",
+            "give a sigma of 0.001 to 1 rad, 0.087 for most people",
+        ),
+        HandFault::TooManyTemplates { capacity } => Advice::new(
+            format!("a unit can be taught {capacity} examples of gestures"),
+            "teach fewer gestures, or fewer examples of each: `deictic gestures learn --each`",
+        ),
+        HandFault::Template { template } => Advice::new(
+            format!("example {template} of a gesture cannot be"),
+            "learn the gestures anew: `deictic gestures learn`",
+        ),
+        HandFault::Scale => Advice::new(
+            "the scale of the gestures' examples cannot be",
+            "learn the gestures anew: `deictic gestures learn`",
+        ),
+        HandFault::SensorLost => Advice::new(
+            "the hand sensor fell silent in the middle of a gesture, which is forgotten",
+            "look at the sensor's cable, and show it again",
+        ),
+    }
+}
+
+fn mapping_error(error: &MappingError) -> Advice {
+    const FILE: &str = "look at `gestures` in the vocabulary file";
+    match error {
+        MappingError::UnknownGesture(gesture) => {
+            Advice::new(format!("the unit does not know {gesture:?}"), FILE)
+        }
+        MappingError::Reserved(_) => Advice::new(
+            "a pointing hand and a closed hand have a meaning of their own",
+            FILE,
+        ),
+        MappingError::UnknownAction(action) => Advice::new(
+            format!("a gesture stands for action {action}, which is not there"),
+            FILE,
         ),
     }
 }

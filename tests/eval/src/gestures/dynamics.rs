@@ -7,7 +7,7 @@ use std::path::Path;
 use anyhow::{Context, bail};
 use deictic::hand::movement::{GESTURES, Manner};
 use deictic_core::gesture::path;
-use deictic_core::gesture::stroke::{Comparison, Scale, Template, distance};
+use deictic_core::gesture::stroke::{Comparison, Scale, Template, Templates, distance};
 use deictic_core::time::Micros;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -252,8 +252,12 @@ pub fn tell<'a>(learned: &'a Learned, performance: &Performance) -> (&'a str, f3
         return ("none", 1.0);
     };
     let mut comparison = Comparison::<GESTURES_AT_MOST>::new(stroke);
-    let all = learned.templates.len();
-    let Some(likely) = comparison.step(&learned.templates, &learned.scale, all) else {
+    let templates = Templates {
+        known: &[],
+        learned: &learned.templates,
+        scale: &learned.scale,
+    };
+    let Some(likely) = comparison.step(&templates, templates.len()) else {
         return ("none", 1.0);
     };
     let known = &likely.gestures[..learned.gestures.len()];

@@ -1,0 +1,82 @@
+//! What the unit sees of a hand, for people who want to look over its shoulder.
+
+use heapless::Vec;
+
+use super::Unit;
+use crate::math;
+use crate::protocol::hand::{Glimpse, Guess, HandStatistics, HandView, VIEWED};
+use crate::protocol::message::ToHost;
+
+impl<
+    const N: usize,
+    const C: usize,
+    const F: usize,
+    const E: usize,
+    const W: usize,
+    const FRAME: usize,
+    const OUT: usize,
+> Unit<N, C, F, E, W, FRAME, OUT>
+{
+    /// Tells the host what the unit sees, and what it has counted.
+    #[inline(never)]
+    pub(super) fn tell_hand(&mut self) {
+        let view = self.hand_view();
+        self.send(&ToHost::Hand(view));
+        self.send(&ToHost::HandStatistics(HandStatistics {
+            samples: *self.hand.reader.counters(),
+            learned: self.hand.taught.count(),
+        }));
+    }
+
+    /// What the unit sees of a hand.
+    #[must_use]
+    pub fn hand_view(&self) -> HandView {
+        let reader = &self.hand.reader;
+        let mut view = HandView {
+            hand: reader.hand(),
+            shapes: *reader.shapes(),
+            shown: reader.shown(),
+            no_stroke: 1.0,
+            nothing: 1.0,
+            ..HandView::default()
+        };
+        if let Some(likely) = reader.likely() {
+            view.strokes = likeliest(&likely.gestures);
+            view.no_stroke = likely.none;
+        }
+        if let Some(scene) = self.loading.scene()
+            && let Some(meant) = reader.meant(scene, &self.hand.settings.aim)
+        {
+            view.pointed = likeliest(&meant.points);
+            view.nothing = meant.nothing;
+        }
+        for word in reader.words() {
+            let best = math::argmax(word.likelihoods());
+            if let (Some(category), Some(best)) = (word.category(), best) {
+                // Full: no person says so much with one hand.
+                let _ = view.words.push(Glimpse {
+                    category,
+                    option: u8::try_from(best).unwrap_or(u8::MAX),
+                    likelihood: word.likelihoods().get(best).copied().unwrap_or_default(),
+                });
+            }
+        }
+        view
+    }
+}
+
+/// The largest of some probabilities, largest first; those below 1 in 1,000 are left out.
+fn likeliest(probabilities: &[f32]) -> Vec<Guess, VIEWED> {
+    let mut found = Vec::<Guess, VIEWED>::new();
+    for (p, number) in probabilities.iter().zip(0_u8..) {
+        if *p < 1e-3 {
+            continue;
+        }
+        let before = found.iter().take_while(|g| g.p >= *p).count();
+        if found.is_full() && before < found.len() {
+            found.pop();
+        }
+        let _ = found.insert(before, Guess { number, p: *p });
+    }
+    found
+}
