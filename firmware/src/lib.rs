@@ -5,7 +5,7 @@
 //!
 //! | feature | board | host link | sensor link | log |
 //! |---|---|---|---|---|
-//! | `mps2-an386` | QEMU `-M mps2-an386` (Cortex-M4F, 25 MHz) | UART0 | UART1 | RTT ring, read out over semihosting |
+//! | `mps2-an386` | QEMU `-M mps2-an386` (Cortex-M4F, 25 MHz) | UART0 | UART2 | RTT ring, read out over semihosting |
 //! | `nucleo-g474re` | NUCLEO-G474RE (Cortex-M4F, 170 MHz, FDCAN) | LPUART1 (ST-LINK's virtual COM port), 921600 baud | USART1 on PC4/PC5, 115200 baud | RTT |
 //!
 //! In a release image no panic can be reached: the panic handler calls a function that nowhere exists, so an image

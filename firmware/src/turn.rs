@@ -35,9 +35,11 @@ pub fn turn<B: Board>(board: &mut B, unit: &mut Unit) -> Turn {
     unit.receive(now, received);
     let received = received.len();
 
-    let sensed = take(board.sensor(), &mut chunk).len();
-
+    let sensed = take(board.sensor(), &mut chunk);
     let now = board.now();
+    unit.sense(now, sensed);
+    let sensed = sensed.len();
+
     unit.poll(now);
     let sent = give(board.link(), unit.outgoing());
     unit.sent(sent);

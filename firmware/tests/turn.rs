@@ -3,6 +3,8 @@
 use std::collections::VecDeque;
 
 use deictic_core::board::{Link, ToHost, ToUnit, Unit};
+use deictic_core::gesture::line::{FRAMED, send};
+use deictic_core::gesture::wire::Sample;
 use deictic_core::protocol::message::Hello;
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
@@ -122,18 +124,19 @@ impl Table {
         }
     }
 
-    fn say_hello(&mut self) {
+    fn say(&mut self, message: &ToUnit) {
         let mut frame = Outbox::<2048>::new();
-        assert!(self.host.send(
-            &ToUnit::Hello(Hello {
-                version: VERSION,
-                schema: SCHEMA,
-                boot: 1,
-                capacities: Unit::capacities(),
-            }),
-            &mut frame
-        ));
+        assert!(self.host.send(message, &mut frame));
         self.board.link.incoming.extend(frame.waiting());
+    }
+
+    fn say_hello(&mut self) {
+        self.say(&ToUnit::Hello(Hello {
+            version: VERSION,
+            schema: SCHEMA,
+            boot: 1,
+            capacities: Unit::capacities(),
+        }));
     }
 
     /// Turns until a turn moves nothing, and gives the number of turns.
@@ -207,11 +210,28 @@ fn a_noisy_link_does_not_keep_the_unit_from_its_timers() {
 }
 
 #[test]
-fn the_sensors_bytes_are_taken_and_counted() {
-    let mut table = Table::new(64);
-    table.board.sensor.incoming.extend([0xaa; 100]);
-    let first = turn(&mut table.board, &mut table.unit);
-    let second = turn(&mut table.board, &mut table.unit);
-    assert_eq!(first.sensed + second.sensed, 100);
-    assert!(turn(&mut table.board, &mut table.unit).is_idle());
+fn the_sensors_bytes_reach_the_unit() {
+    let mut table = Table::new(4096);
+    table.say_hello();
+    table.settle();
+    let mut bytes = vec![0xaa; 100];
+    bytes.push(0);
+    let mut frame = Outbox::<FRAMED>::new();
+    send(&Sample::Nothing(5), &mut frame).expect("a sample fits");
+    bytes.extend(frame.waiting());
+    table.board.sensor.incoming.extend(&bytes);
+    let mut sensed = 0;
+    while !table.board.sensor.incoming.is_empty() {
+        sensed += turn(&mut table.board, &mut table.unit).sensed;
+    }
+    assert_eq!(sensed, bytes.len());
+    table.say(&ToUnit::AskHand);
+    table.settle();
+    let statistics = table.heard().into_iter().find_map(|message| match message {
+        ToHost::HandStatistics(statistics) => Some(statistics.samples),
+        _ => None,
+    });
+    // Noise, and a sample before there is a vocabulary.
+    let counted = statistics.map(|samples| (samples.damaged, samples.unready));
+    assert_eq!(counted, Some((1, 1)));
 }

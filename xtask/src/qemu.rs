@@ -4,7 +4,8 @@
 //! qemu-system-arm -M mps2-an386 -kernel IMAGE -display none -monitor none
 //!   -chardev stdio,id=log -semihosting-config enable=on,target=native,chardev=log
 //!   -serial tcp:127.0.0.1:PORT,server=on,wait=off,nodelay=on     UART0, the host link
-//!   -serial null                                                 UART1, the hand sensor
+//!   -serial null                                                 UART1, not used
+//!   -serial null                                                 UART2, the hand sensor
 //!   [-icount shift=10]                                           1 instruction = 1024 ns of the board's time
 //! ```
 
@@ -33,7 +34,7 @@ pub fn command(image: &Path, link: &Link) -> Command {
         Link::Tcp(port) => format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on"),
         Link::Null => "null".to_owned(),
     };
-    qemu.args(["-serial", &link, "-serial", "null"]);
+    qemu.args(["-serial", &link, "-serial", "null", "-serial", "null"]);
     qemu.stdin(Stdio::null());
     qemu
 }

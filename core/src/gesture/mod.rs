@@ -10,6 +10,7 @@
 mod bits;
 pub mod context;
 pub mod counters;
+pub mod curl;
 pub mod evidence;
 pub mod frame;
 pub mod line;
@@ -18,6 +19,7 @@ pub mod movement;
 pub mod path;
 pub mod pointing;
 pub mod reader;
+mod saying;
 pub mod shape;
 pub mod shape_table;
 pub mod stroke;

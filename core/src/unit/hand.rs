@@ -143,6 +143,7 @@ impl<
         self.read_hand(now, &decode(bytes));
     }
 
+    #[inline(never)]
     fn read_hand(&mut self, now: Micros, sample: &Result<Sample, WireError>) {
         let sample = match sample {
             Ok(sample) => sample,

@@ -68,15 +68,30 @@ impl<
 /// The largest of some probabilities, largest first; those below 1 in 1,000 are left out.
 fn likeliest(probabilities: &[f32]) -> Vec<Guess, VIEWED> {
     let mut found = Vec::<Guess, VIEWED>::new();
-    for (p, number) in probabilities.iter().zip(0_u8..) {
-        if *p < 1e-3 {
-            continue;
+    while !found.is_full() {
+        let mut best = Guess { number: 0, p: 1e-3 };
+        for (p, number) in probabilities.iter().zip(0_u8..) {
+            if *p > best.p && !found.iter().any(|g| g.number == number) {
+                best = Guess { number, p: *p };
+            }
         }
-        let before = found.iter().take_while(|g| g.p >= *p).count();
-        if found.is_full() && before < found.len() {
-            found.pop();
+        if best.p <= 1e-3 || found.push(best).is_err() {
+            break;
         }
-        let _ = found.insert(before, Guess { number, p: *p });
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_likeliest_come_first_and_the_improbable_not_at_all() {
+        let numbers =
+            |p: &[f32]| -> std::vec::Vec<u8> { likeliest(p).iter().map(|g| g.number).collect() };
+        assert_eq!(numbers(&[0.1, 0.0, 0.5, 0.1, 0.3]), [2, 4, 0, 3]);
+        assert_eq!(numbers(&[f32::NAN, 0.0, 1e-4]), [0_u8; 0]);
+        assert_eq!(numbers(&[0.05; 20]), [0, 1, 2, 3, 4, 5, 6, 7]);
+    }
 }

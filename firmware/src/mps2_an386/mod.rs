@@ -3,9 +3,9 @@
 //! ```text
 //! qemu-system-arm -M mps2-an386 -kernel IMAGE -display none -monitor none \
 //!   -chardev stdio,id=log -semihosting-config enable=on,target=native,chardev=log \
-//!   -serial tcp:127.0.0.1:PORT,server=on,wait=off,nodelay=on -serial null
+//!   -serial tcp:127.0.0.1:PORT,server=on,wait=off,nodelay=on -serial null -serial null
 //! ```
-//! The first `-serial` is the link to the host bridge, the second the hand sensor's. The log is defmt frames for
+//! The first `-serial` is the link to the host bridge, the third the hand sensor's; the second is not used. The log is defmt frames for
 //! `cargo xtask qemu` or `defmt-print`. Without semihosting the image runs too, silently.
 
 #[cfg(feature = "bench")]

@@ -36,10 +36,10 @@ pub(super) static LINK: Uart = Uart {
     transmit: Interrupt::Uart0Tx,
     port: &LINK_PORT,
 };
-/// UART1: the hand sensor.
+/// UART2: the hand sensor.
 pub(super) static SENSOR: Uart = Uart {
-    base: 0x4000_5000,
-    transmit: Interrupt::Uart1Tx,
+    base: 0x4000_6000,
+    transmit: Interrupt::Uart2Tx,
     port: &SENSOR_PORT,
 };
 static LINK_PORT: Port<RX, TX> = Port::new();

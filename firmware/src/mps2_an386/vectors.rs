@@ -10,12 +10,12 @@ use super::uart;
 pub(super) enum Interrupt {
     Uart0Rx = 0,
     Uart0Tx = 1,
-    Uart1Rx = 2,
-    Uart1Tx = 3,
+    Uart2Rx = 4,
+    Uart2Tx = 5,
 }
 
 impl Interrupt {
-    pub(super) const ALL: [Self; 4] = [Self::Uart0Rx, Self::Uart0Tx, Self::Uart1Rx, Self::Uart1Tx];
+    pub(super) const ALL: [Self; 4] = [Self::Uart0Rx, Self::Uart0Tx, Self::Uart2Rx, Self::Uart2Tx];
 }
 
 // SAFETY: the numbers are those of the data sheet and different.
@@ -25,10 +25,17 @@ unsafe impl InterruptNumber for Interrupt {
     }
 }
 
-/// The table's part after the core's own exceptions, in the order of [`Interrupt`]. No other interrupt is unmasked.
+/// The table's part after the core's own exceptions, at the places of [`Interrupt`]. No other interrupt is unmasked.
 #[unsafe(no_mangle)]
 #[unsafe(link_section = ".vector_table.interrupts")]
-static __INTERRUPTS: [extern "C" fn(); 4] = [uart0_rx, uart0_tx, uart1_rx, uart1_tx];
+static __INTERRUPTS: [Option<extern "C" fn()>; 6] = [
+    Some(uart0_rx),
+    Some(uart0_tx),
+    None,
+    None,
+    Some(uart2_rx),
+    Some(uart2_tx),
+];
 
 extern "C" fn uart0_rx() {
     uart::LINK.receive();
@@ -38,10 +45,10 @@ extern "C" fn uart0_tx() {
     uart::LINK.transmit();
 }
 
-extern "C" fn uart1_rx() {
+extern "C" fn uart2_rx() {
     uart::SENSOR.receive();
 }
 
-extern "C" fn uart1_tx() {
+extern "C" fn uart2_tx() {
     uart::SENSOR.transmit();
 }

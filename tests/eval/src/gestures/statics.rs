@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use deictic::hand::anatomy::{Anatomy, Place};
 use deictic::hand::posture;
+use deictic_core::gesture::curl;
 use deictic_core::gesture::evidence::{Change, Evidence, Settings};
 use deictic_core::gesture::frame::{HandFrame, Side};
 use deictic_core::gesture::shape::{self, Network, SHAPES, Shape};
@@ -286,7 +287,8 @@ pub fn tell(network: &Network, frames: &[HandFrame]) -> Told {
             told.without_features += 1;
             continue;
         };
-        let probabilities = network.classify(&features);
+        let mut probabilities = network.classify(&features);
+        curl::rule_out(&mut probabilities, frame);
         let now = Micros(u64::from(frame.time.wrapping_sub(first)));
         let seconds = frame.time.wrapping_sub(before) as f32 * 1e-6;
         before = frame.time;
