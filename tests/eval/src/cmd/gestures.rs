@@ -1,7 +1,6 @@
 //! `deictic-eval gestures`
 
 use std::collections::BTreeMap;
-use std::io::{BufWriter, ErrorKind, Write};
 use std::path::PathBuf;
 
 use anyhow::{Context, bail};
@@ -237,23 +236,13 @@ impl Strokes {
         } else {
             dynamics::own_names()
         };
-        let takes = dynamics::perform(&names, self.people, self.takes, self.seed);
-        match print_takes(&takes) {
-            // Whoever reads it has seen enough.
-            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-            done => Ok(done?),
+        println!("subject,gesture,take,t_ms,x,y,z");
+        for p in dynamics::perform(&names, self.people, self.takes, self.seed) {
+            for (t, [x, y, z]) in &p.samples {
+                let (who, what, take) = (p.subject, &p.gesture, p.take);
+                println!("p{who},{what},{take},{t:.2},{x:.2},{y:.2},{z:.2}");
+            }
         }
+        Ok(())
     }
-}
-
-fn print_takes(takes: &[dynamics::Take]) -> std::io::Result<()> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    writeln!(out, "subject,gesture,take,t_ms,x,y,z")?;
-    for p in takes {
-        for (t, [x, y, z]) in &p.samples {
-            let (who, what, take) = (p.subject, &p.gesture, p.take);
-            writeln!(out, "p{who},{what},{take},{t:.2},{x:.2},{y:.2},{z:.2}")?;
-        }
-    }
-    out.flush()
 }
