@@ -59,11 +59,10 @@ pub fn folded(finger: &Finger) -> Option<f32> {
     let outer = vector::sub(finger.tip, finger.middle);
     let lengths = vector::dot(inner, inner) * vector::dot(outer, outer);
     // The comparison is false for NaN.
-    if !(lengths > 1.0) {
-        return None;
-    }
-    let cosine = vector::dot(inner, outer) / math::sqrt(lengths);
-    Some(smooth((STRAIGHT - cosine) / (STRAIGHT - FOLDED)))
+    (lengths > 1.0).then(|| {
+        let cosine = vector::dot(inner, outer) / math::sqrt(lengths);
+        smooth((STRAIGHT - cosine) / (STRAIGHT - FOLDED))
+    })
 }
 
 /// How far the thumb is folded, 0..=1; `None` without thumb or index.
@@ -185,8 +184,10 @@ mod tests {
 
     #[test]
     fn without_joints_nothing_is_ruled_out() {
-        let mut frame = HandFrame::default();
-        frame.fingers = [Some(Finger::default()); FINGERS];
+        let frame = HandFrame {
+            fingers: [Some(Finger::default()); FINGERS],
+            ..HandFrame::default()
+        };
         let mut p = [1.0 / SHAPES as f32; SHAPES];
         rule_out(&mut p, &frame);
         assert!(
@@ -200,8 +201,11 @@ mod tests {
         fn any_joints_leave_probabilities(
             points in prop::array::uniform5(prop::array::uniform3(prop::array::uniform3(any::<f32>()))),
         ) {
-            let mut frame = HandFrame::default();
-            frame.fingers = points.map(|[knuckle, middle, tip]| Some(Finger { knuckle, middle, tip }));
+            let finger = |[knuckle, middle, tip]: [_; 3]| Some(Finger { knuckle, middle, tip });
+            let frame = HandFrame {
+                fingers: points.map(finger),
+                ..HandFrame::default()
+            };
             let mut p = [1.0 / SHAPES as f32; SHAPES];
             rule_out(&mut p, &frame);
             let sum: f32 = p.iter().sum();

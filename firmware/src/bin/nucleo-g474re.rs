@@ -3,17 +3,20 @@
 #![no_std]
 #![no_main]
 
+use core::mem::MaybeUninit;
+
 use cortex_m_rt::entry;
 use deictic_core::board::Unit;
 use deictic_firmware::nucleo_g474re::NucleoG474Re;
 
 #[entry]
 fn main() -> ! {
-    static mut UNIT: Unit = Unit::new(0);
+    // Written here rather than copied from flash: its first value is mostly zeros, 17 KB of them.
+    static mut UNIT: MaybeUninit<Unit> = MaybeUninit::uninit();
     match NucleoG474Re::start() {
         Some(mut board) => {
-            UNIT.set_boot(board.boot());
-            deictic_firmware::run(&mut board, UNIT)
+            let unit = UNIT.write(Unit::new(board.boot()));
+            deictic_firmware::run(&mut board, unit)
         }
         None => loop {
             cortex_m::asm::wfi();
