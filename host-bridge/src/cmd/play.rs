@@ -19,8 +19,8 @@ use super::{advice, paint};
 use crate::explain;
 use crate::language::Listener;
 use crate::link::{self, Address};
-use crate::robot::Event;
-use crate::robot::sim::Sim;
+use crate::robot::address::reach;
+use crate::robot::{self, Event};
 use crate::script::{Script, Turn};
 use crate::sensor::Sensors;
 use crate::session::{Happening, Session};
@@ -34,6 +34,9 @@ pub struct Play {
     /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, qemu, or inside for none at all
     #[arg(long, value_name = "ADDRESS", default_value = "inside")]
     board: Address,
+    /// The robot: sim, or fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
+    #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
+    robot: robot::address::Address,
     /// How many times as fast as a careful arm the simulated one moves
     #[arg(long, default_value_t = 8.0)]
     haste: f32,
@@ -80,7 +83,7 @@ impl Play {
         };
         let address = self.board.clone();
         let opener = Box::new(move || link::open(&address));
-        let robot = Box::new(Sim::new(self.haste));
+        let robot = reach(&self.robot, self.haste)?;
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let printer = Printer {
             json: self.json,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::Duration;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
 use miette::{Context, IntoDiagnostic, Result};
@@ -18,7 +18,7 @@ use super::profile::Choice;
 use super::{advice, paint};
 use crate::language::Listener;
 use crate::link::{self, Address};
-use crate::robot::sim::Sim;
+use crate::robot::{self, address::reach};
 use crate::sensor::{Noise, Sensors};
 use crate::session::Session;
 
@@ -44,9 +44,9 @@ pub struct Run {
     /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, qemu, or inside for none at all
     #[arg(long, value_name = "ADDRESS")]
     board: Address,
-    /// The robot
-    #[arg(long, value_enum, default_value_t = Arm::Sim)]
-    robot: Arm,
+    /// The robot: sim, or fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
+    #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
+    robot: robot::address::Address,
     /// How many times as fast as a careful arm the simulated one moves
     #[arg(long, default_value_t = 1.0)]
     haste: f32,
@@ -78,12 +78,6 @@ pub struct Run {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Arm {
-    /// The simulated Panda
-    Sim,
-}
-
 impl Run {
     /// Runs the command; gives its exit code.
     ///
@@ -98,9 +92,7 @@ impl Run {
             explain: self.explain,
             ..Configuration::DEFAULT
         };
-        let robot = match self.robot {
-            Arm::Sim => Box::new(Sim::new(self.haste)),
-        };
+        let robot = reach(&self.robot, self.haste)?;
         let address = self.board.clone();
         let opener = Box::new(move || link::open(&address));
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;

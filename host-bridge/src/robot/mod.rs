@@ -1,6 +1,14 @@
 //! What does the deciding's bidding: a robot takes one command at a time, says how it fares, and can
 //! be stopped at any moment.
 
+pub mod address;
+mod check;
+pub mod fci;
+mod given;
+mod hold;
+mod motion;
+pub mod panda;
+mod plan;
 pub mod sim;
 mod skill;
 
@@ -31,6 +39,24 @@ pub struct Command {
     pub intent: Intent,
     /// The version of the scene that it was decided on.
     pub scene: u32,
+}
+
+impl Command {
+    /// Whether it was decided on the present scene.
+    ///
+    /// # Errors
+    /// [`Refusal::StaleScene`] when not.
+    pub fn check_scene(&self, world: World<'_>) -> Result<(), Refusal> {
+        let (decided_on, present) = (self.scene, world.table.version());
+        if decided_on == present {
+            Ok(())
+        } else {
+            Err(Refusal::StaleScene {
+                decided_on,
+                present,
+            })
+        }
+    }
 }
 
 /// What a robot sees of the world.
@@ -100,6 +126,17 @@ pub enum Refusal {
     /// The hand holds nothing.
     #[error("the hand holds nothing")]
     NothingHeld,
+    /// A thing would run into another.
+    #[error("the {0} is in the way")]
+    InTheWay(String),
+    /// The arm itself cannot move.
+    #[error("{why}")]
+    Arm {
+        /// Why not.
+        why: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
     /// A distance or angle that no motion has.
     #[error("{0} is beyond what the arm does in one motion")]
     TooFar(String),
@@ -128,6 +165,8 @@ impl Refusal {
             Self::Unfit { .. } => "name another".into(),
             Self::Holding(thing) => format!("put the {thing} somewhere, or say \"release\""),
             Self::NothingHeld => "pick something first".into(),
+            Self::InTheWay(thing) => format!("move the {thing} away first, or go another way"),
+            Self::Arm { remedy, .. } => (*remedy).into(),
             Self::TooFar(_) => "say it in smaller steps".into(),
         }
     }

@@ -1,5 +1,10 @@
 //! The motions a robot knows.
 
+use deictic_core::large::Intent;
+
+use super::Refusal;
+use crate::vocabulary::Lexicon;
+
 /// A motion. An action of the vocabulary stands for one by its `motion`, or by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Skill {
@@ -57,5 +62,14 @@ impl Skill {
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|skill| skill.name() == name)
+    }
+
+    /// The motion that an intent's action stands for.
+    ///
+    /// # Errors
+    /// [`Refusal::UnknownMotion`] when there is no such motion.
+    pub fn of(intent: &Intent, lexicon: &Lexicon) -> Result<Self, Refusal> {
+        let motion = lexicon.motion(intent.action).unwrap_or_default();
+        Self::named(motion).ok_or_else(|| Refusal::UnknownMotion(motion.to_owned()))
     }
 }

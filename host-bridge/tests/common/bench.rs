@@ -111,6 +111,12 @@ impl Bench {
         thing.features[self.lexicon.feature(feature).unwrap()]
     }
 
+    /// Whether a thing is within a millimetre of a place.
+    pub fn is_at(&self, name: &str, place: [f32; 3]) -> bool {
+        let apart = self.position(name).into_iter().zip(place);
+        apart.map(|(a, b)| (a - b).abs()).all(|off| off < 1e-3)
+    }
+
     pub fn position(&self, name: &str) -> [f32; 3] {
         let option = self.lexicon.option(Category::OBJECT, name).unwrap();
         self.table.find(Category::OBJECT, option).unwrap().position

@@ -1,74 +1,47 @@
 //! A simulated Panda: it does what a real one would do to the things on the table, motion by motion,
-//! in the time a careful arm takes.
+//! with the joints, limits and speeds of a real one.
 
-mod check;
-mod plan;
-
-use std::collections::BTreeMap;
 use std::collections::VecDeque;
 
 use deictic_core::time::Micros;
 
-use super::{Command, CommandId, Event, Refusal, Robot, Skill, Taken, World};
-use crate::scene::Change;
-use plan::{Effect, Place, Step, plan};
-
-/// How far the arm reaches from its base, in metres (Franka Emika Panda, data sheet).
-pub const REACH: f32 = 0.855;
-
-/// Where the hand rests in the arm's ready posture, in metres.
-const READY: Place = [0.307, 0.0, 0.487];
-
-/// How fast the hand travels, in metres a second: an eighth of what the arm can.
-const SPEED: f32 = 0.2;
-
-/// How long a motion takes at least, in seconds: opening or closing the hand.
-const SHORTEST: f32 = 0.4;
-
-/// The features that tell what a thing that was put somewhere does to it.
-const CARRYING: [&str; 2] = ["full-container", "full-stack"];
+use super::given::Given;
+use super::hold::Hold;
+use super::motion::{Motion, Stance, homewards, place, rehearse};
+use super::panda::{Caps, PANDA};
+use super::plan::plan;
+use super::{Command, CommandId, Event, Posture, Refusal, Robot, Skill, Taken, World, check};
 
 /// The command that is being done.
 #[derive(Debug)]
 struct Running {
     id: CommandId,
-    steps: Vec<Step>,
-    /// When each step ends.
+    motions: Vec<Motion>,
+    /// When each motion ends.
     ends: Vec<Micros>,
     began: Micros,
-    /// The step that is under way.
+    /// Since when it is held.
+    held: Option<Micros>,
+    /// The motion that is under way.
     at: usize,
 }
 
 impl Running {
-    /// Where the hand is in the middle of a step that began at `from`.
-    fn hand_at(&self, now: Micros, from: Place, step: &Step) -> Place {
+    /// When the motion that is under way began.
+    fn since(&self) -> Micros {
         let before = self.at.checked_sub(1).and_then(|i| self.ends.get(i));
-        let began = before.copied().unwrap_or(self.began);
-        let end = self.ends.get(self.at).copied().unwrap_or(now);
-        let whole = end.since(began).0.max(1) as f32;
-        let part = (now.since(began).0 as f32 / whole).min(1.0);
-        let mut hand = from;
-        for (x, to) in hand.iter_mut().zip(step.hand) {
-            *x += part * (to - *x);
-        }
-        hand
+        before.copied().unwrap_or(self.began)
     }
 }
 
 /// A simulated arm.
 #[derive(Debug)]
 pub struct Sim {
-    haste: f32,
-    hand: Place,
-    held: Option<String>,
+    haste: f64,
+    stance: Stance,
+    hold: Hold,
     running: Option<Running>,
-    /// The newest command of every run.
-    newest: BTreeMap<u32, u32>,
-    /// What stands in or on what, as far as this arm put it there, with the feature that tells so.
-    resting: BTreeMap<String, (String, &'static str)>,
-    /// The places of the features this arm changes, as the vocabulary has them.
-    features: BTreeMap<&'static str, usize>,
+    given: Given,
     happened: VecDeque<Event>,
 }
 
@@ -78,48 +51,42 @@ impl Sim {
     #[must_use]
     pub fn new(haste: f32) -> Self {
         Self {
-            haste: haste.max(0.01),
-            hand: READY,
-            held: None,
+            haste: f64::from(haste.max(0.01)),
+            stance: Stance::READY,
+            hold: Hold::default(),
             running: None,
-            newest: BTreeMap::new(),
-            resting: BTreeMap::new(),
-            features: BTreeMap::new(),
+            given: Given::default(),
             happened: VecDeque::new(),
         }
     }
 
-    fn duration(&self, from: Place, to: Place) -> Micros {
-        let square: f32 = from.iter().zip(to).map(|(a, b)| (a - b) * (a - b)).sum();
-        let seconds = (deictic_core::math::sqrt(square) / SPEED).max(SHORTEST) / self.haste;
-        Micros((f64::from(seconds) * 1e6) as u64)
-    }
-
-    fn begin_step(&mut self) {
+    fn begin_motion(&mut self) {
         if let Some(running) = &self.running
-            && let Some(step) = running.steps.get(running.at)
+            && let Some(motion) = running.motions.get(running.at)
         {
             self.happened.push_back(Event::Begun {
                 id: running.id,
-                step: step.name.clone(),
+                step: motion.name.clone(),
                 number: running.at + 1,
-                of: running.steps.len(),
+                of: running.motions.len(),
             });
         }
     }
 
-    /// Ends the step that is under way and begins the next one.
-    fn end_step(&mut self) {
+    /// Ends the motion that is under way and begins the next one.
+    fn end_motion(&mut self) {
         let Some(running) = &mut self.running else {
             return;
         };
         let id = running.id;
-        let step = running.steps.get(running.at).cloned();
+        let motion = running.motions.get(running.at).cloned();
         running.at += 1;
-        let over = running.at >= running.steps.len();
-        if let Some(step) = step {
-            self.hand = step.hand;
-            let changes = self.changes(step.effect);
+        let over = running.at >= running.motions.len();
+        if let Some(motion) = motion {
+            let end = motion.duration();
+            self.stance.joints = motion.joints(end);
+            self.stance.opening = motion.opening(end).unwrap_or(self.stance.opening);
+            let changes = self.hold.changes(motion.effect, place(&self.stance.joints));
             if !changes.is_empty() {
                 self.happened.push_back(Event::Changed { id, changes });
             }
@@ -128,59 +95,45 @@ impl Sim {
             self.running = None;
             self.happened.push_back(Event::Done(id));
         } else {
-            self.begin_step();
+            self.begin_motion();
         }
     }
 
-    fn set(&self, thing: &str, feature: &'static str, likelihood: f32) -> Option<Change> {
-        Some(Change::Feature {
-            thing: thing.to_owned(),
-            feature: *self.features.get(feature)?,
-            likelihood,
-        })
-    }
-
-    /// What a motion that has just ended made different.
-    fn changes(&mut self, effect: Effect) -> Vec<Change> {
-        let mut changes = Vec::new();
-        match effect {
-            Effect::None => {}
-            Effect::Grasp(thing) => {
-                if let Some((base, feature)) = self.resting.remove(&thing) {
-                    changes.extend(self.set(&base, feature, 0.0));
-                }
-                self.held = Some(thing);
-            }
-            Effect::LetGo => changes.extend(self.drop_here()),
-            Effect::LeaveIn(base, feature) => {
-                changes.extend(self.set(&base, feature, 1.0));
-                if let Some(thing) = self.held.clone() {
-                    self.resting.insert(thing, (base, feature));
-                }
-                changes.extend(self.drop_here());
-            }
-            Effect::Push(thing) => changes.push(Change::Moved {
-                thing,
-                position: self.hand,
-            }),
-            Effect::Loosen(thing) => changes.extend(self.set(&thing, "glued", 0.0)),
-            Effect::Pour(from, into) => {
-                changes.extend(self.set(&from, "full-liquid", 0.0));
-                changes.extend(self.set(&into, "full-liquid", 1.0));
-            }
+    /// How the arm stands in the middle of a motion.
+    fn stands(&self, now: Micros) -> Stance {
+        let mut stance = self.stance;
+        if let Some(running) = &self.running
+            && let Some(motion) = running.motions.get(running.at)
+        {
+            let now = running.held.unwrap_or(now);
+            let passed = now.since(running.since()).0 as f64 / 1e6 * self.haste;
+            stance.joints = motion.joints(passed);
+            stance.opening = motion.opening(passed).unwrap_or(stance.opening);
         }
-        changes.extend(self.held.clone().map(|thing| Change::Moved {
-            thing,
-            position: self.hand,
-        }));
-        changes
+        stance
     }
 
-    fn drop_here(&mut self) -> Option<Change> {
-        self.held.take().map(|thing| Change::Moved {
-            thing,
-            position: self.hand,
-        })
+    fn start(&mut self, now: Micros, id: CommandId, motions: Vec<Motion>) {
+        self.given.note(id);
+        if motions.is_empty() {
+            // The hand holds what it was to pick.
+            self.happened.push_back(Event::Done(id));
+            return;
+        }
+        let mut end = now;
+        let ends = motions.iter().map(|motion| {
+            end = end.after(Micros((motion.duration() / self.haste * 1e6) as u64));
+            end
+        });
+        self.running = Some(Running {
+            id,
+            ends: ends.collect(),
+            motions,
+            began: now,
+            held: None,
+            at: 0,
+        });
+        self.begin_motion();
     }
 }
 
@@ -191,16 +144,10 @@ impl Robot for Sim {
         command: &Command,
         world: World<'_>,
     ) -> Result<Taken, Refusal> {
-        let CommandId { run, number } = command.id;
-        if self.newest.get(&run).is_some_and(|n| number <= *n) {
-            return Err(Refusal::Repeated);
-        }
-        let action = command.intent.action;
-        let motion = world.lexicon.motion(action).unwrap_or_default();
-        let skill =
-            Skill::named(motion).ok_or_else(|| Refusal::UnknownMotion(motion.to_owned()))?;
+        self.given.check(command.id)?;
+        let skill = Skill::of(&command.intent, world.lexicon)?;
         if skill == Skill::Stop {
-            self.newest.insert(run, number);
+            self.given.note(command.id);
             self.stop(now);
             self.happened.push_back(Event::Done(command.id));
             return Ok(Taken::Begun);
@@ -208,73 +155,81 @@ impl Robot for Sim {
         if self.running.is_some() {
             return Err(Refusal::Busy);
         }
-        let present = world.table.version();
-        if command.scene != present {
-            return Err(Refusal::StaleScene {
-                decided_on: command.scene,
-                present,
-            });
-        }
-        let task = check::check(self, skill, &command.intent, world)?;
-        for name in CARRYING.into_iter().chain(["glued", "full-liquid"]) {
-            if let Some(at) = world.lexicon.feature(name) {
-                self.features.insert(name, at);
-            }
-        }
-        let held = self.held.is_some() && task.thing() == self.held.as_deref();
-        let steps = plan(&task, self.hand, held);
-        let mut hand = self.hand;
-        let mut end = now;
-        let ends = steps.iter().map(|step| {
-            end = end.after(self.duration(hand, step.hand));
-            hand = step.hand;
-            end
-        });
-        let ends: Vec<_> = ends.collect();
-        self.newest.insert(run, number);
-        if steps.is_empty() {
-            // The hand holds what it was to pick.
-            self.happened.push_back(Event::Done(command.id));
-            return Ok(Taken::Begun);
-        }
-        self.running = Some(Running {
-            id: command.id,
-            steps,
-            ends,
-            began: now,
-            at: 0,
-        });
-        self.begin_step();
+        command.check_scene(world)?;
+        self.hold.look(world);
+        let hand = place(&self.stance.joints);
+        let task = check::check(&self.hold, hand, skill, &command.intent, world)?;
+        let held = self.hold.thing().is_some() && task.thing() == self.hold.thing();
+        let steps = plan(&task, hand, held);
+        let motions = rehearse(&steps, &self.stance, &PANDA, &Caps::CAREFUL)?;
+        self.start(now, command.id, motions);
         Ok(Taken::Begun)
+    }
+
+    fn home(&mut self, now: Micros, id: CommandId) -> Result<Taken, Refusal> {
+        self.given.check(id)?;
+        if self.running.is_some() {
+            return Err(Refusal::Busy);
+        }
+        let motions = homewards(&self.stance, &PANDA, &Caps::CAREFUL)?;
+        self.start(now, id, motions);
+        Ok(Taken::Begun)
+    }
+
+    fn hold(&mut self, now: Micros) -> bool {
+        let ended = self.poll(now);
+        self.happened.extend(ended);
+        match &mut self.running {
+            Some(running) => {
+                running.held.get_or_insert(now);
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn resume(&mut self, now: Micros) -> bool {
+        let Some(running) = &mut self.running else {
+            return false;
+        };
+        let Some(since) = running.held.take() else {
+            return false;
+        };
+        let pause = now.since(since);
+        for moment in running.ends.iter_mut().chain([&mut running.began]) {
+            *moment = moment.after(pause);
+        }
+        true
     }
 
     fn stop(&mut self, now: Micros) {
         let ended = self.poll(now);
         self.happened.extend(ended);
+        let stands = self.stands(now);
         let Some(running) = self.running.take() else {
             return;
         };
-        let Some(step) = running.steps.get(running.at) else {
+        let Some(motion) = running.motions.get(running.at) else {
             return;
         };
         let id = running.id;
-        self.hand = running.hand_at(now, self.hand, step);
-        if let Some(thing) = self.held.clone() {
-            let position = self.hand;
-            let changes = vec![Change::Moved { thing, position }];
+        self.stance = stands;
+        if let Some(moved) = self.hold.carried(place(&self.stance.joints)) {
+            let changes = vec![moved];
             self.happened.push_back(Event::Changed { id, changes });
         }
         self.happened.push_back(Event::Stopped {
             id,
-            step: step.name.clone(),
+            step: motion.name.clone(),
         });
     }
 
     fn poll(&mut self, now: Micros) -> Vec<Event> {
         while let Some(running) = &self.running
+            && running.held.is_none()
             && running.ends.get(running.at).is_none_or(|end| *end <= now)
         {
-            self.end_step();
+            self.end_motion();
         }
         self.happened.drain(..).collect()
     }
@@ -282,11 +237,16 @@ impl Robot for Sim {
     fn progress(&self, now: Micros) -> Option<(CommandId, u8)> {
         let running = self.running.as_ref()?;
         let all = running.ends.last()?.since(running.began).0.max(1);
+        let now = running.held.unwrap_or(now);
         let done = now.since(running.began).0.saturating_mul(100) / all;
         Some((running.id, u8::try_from(done.min(100)).unwrap_or(100)))
     }
 
     fn holding(&self) -> Option<&str> {
-        self.held.as_deref()
+        self.hold.thing()
+    }
+
+    fn posture(&self, now: Micros) -> Option<Posture> {
+        Some(self.stands(now).into())
     }
 }

@@ -5,9 +5,12 @@ use deictic_core::category::Category;
 use deictic_core::decide::FEASIBLE;
 use deictic_core::large::{Entity, Intent};
 
-use super::plan::Task;
-use super::{REACH, Sim};
-use crate::robot::{Refusal, Skill, World};
+use super::hold::Hold;
+use super::plan::{Place, Task};
+use super::{Refusal, Skill, World};
+
+/// How far the arm reaches from its base, in metres (Franka Emika Panda, data sheet).
+const REACH: f32 = 0.855;
 
 /// How far one motion goes at most, in metres.
 const FARTHEST: f32 = 0.5;
@@ -43,9 +46,10 @@ fn thing<'a>(
     Ok((name, entity))
 }
 
-/// What a command comes to, or why it cannot be done.
-pub(super) fn check(
-    sim: &Sim,
+/// What a command comes to for an arm whose hand is at `hand`, or why it cannot be done.
+pub fn check(
+    hold: &Hold,
+    hand: Place,
     skill: Skill,
     intent: &Intent,
     world: World<'_>,
@@ -56,22 +60,29 @@ pub(super) fn check(
         Skill::MoveUp => Task::MoveUp {
             by: distance.unwrap_or(0.1),
         },
-        Skill::Release => Task::Release {
-            thing: sim.held.clone().ok_or(Refusal::NothingHeld)?,
-        },
-        Skill::Pick => {
-            if let Some(held) = &sim.held {
-                return Err(Refusal::Holding(held.clone()));
+        Skill::Release => {
+            let thing = hold.thing().ok_or(Refusal::NothingHeld)?.to_owned();
+            let (z, on) = hold.support(&thing, hand, world);
+            let [x, y, _] = hand;
+            Task::Release {
+                thing,
+                to: [x, y, z],
+                on,
             }
-            let (thing, entity) = graspable(sim, intent, world)?;
+        }
+        Skill::Pick => {
+            if let Some(held) = hold.thing() {
+                return Err(Refusal::Holding(held.to_owned()));
+            }
+            let (thing, entity) = graspable(hold, intent, world)?;
             let at = entity.position;
             Task::Pick { thing, at }
         }
         Skill::Push => {
-            if let Some(held) = &sim.held {
-                return Err(Refusal::Holding(held.clone()));
+            if let Some(held) = hold.thing() {
+                return Err(Refusal::Holding(held.to_owned()));
             }
-            let (thing, entity) = graspable(sim, intent, world)?;
+            let (thing, entity) = graspable(hold, intent, world)?;
             if feature(entity, "pushable", world) == Some(false) {
                 let wanted = "pushable";
                 return Err(Refusal::Unfit { thing, wanted });
@@ -89,6 +100,9 @@ pub(super) fn check(
                     "place the {thing} would go to"
                 )));
             }
+            if let Some(other) = hold.in_the_way(&thing, entity.position, to, world) {
+                return Err(Refusal::InTheWay(other));
+            }
             Task::Push {
                 thing,
                 from: entity.position,
@@ -96,8 +110,8 @@ pub(super) fn check(
             }
         }
         Skill::Unglue => {
-            if let Some(held) = &sim.held {
-                return Err(Refusal::Holding(held.clone()));
+            if let Some(held) = hold.thing() {
+                return Err(Refusal::Holding(held.to_owned()));
             }
             let (thing, entity) = thing(intent, Category::OBJECT, "object", world)?;
             if feature(entity, "glued", world) == Some(false) {
@@ -107,7 +121,7 @@ pub(super) fn check(
             Task::Unglue { thing, at }
         }
         Skill::Pour => {
-            let (thing, entity) = graspable(sim, intent, world)?;
+            let (thing, entity) = graspable(hold, intent, world)?;
             if feature(entity, "full-liquid", world) == Some(false) {
                 return Err(Refusal::Empty(thing));
             }
@@ -125,7 +139,7 @@ pub(super) fn check(
             }
         }
         Skill::PutInto => {
-            let (thing, entity) = graspable(sim, intent, world)?;
+            let (thing, entity) = graspable(hold, intent, world)?;
             let (into, container) = open(intent, world, "container")?;
             Task::PutInto {
                 thing,
@@ -135,13 +149,15 @@ pub(super) fn check(
             }
         }
         Skill::Stack => {
-            let (thing, entity) = graspable(sim, intent, world)?;
+            let (thing, entity) = graspable(hold, intent, world)?;
             let (onto, base) = open(intent, world, "stackable")?;
+            let [x, y, z] = base.position;
+            let to = [x, y, z + hold.half(&onto, z) + hold.half(&thing, 0.03)];
             Task::Stack {
                 thing,
                 at: entity.position,
                 onto,
-                to: base.position,
+                to,
             }
         }
     })
@@ -168,14 +184,14 @@ fn quantity(intent: &Intent, category: Category) -> Result<Option<f32>, Refusal>
 
 /// The object of a command, if the hand can take it or holds it already.
 fn graspable<'a>(
-    sim: &Sim,
+    hold: &Hold,
     intent: &Intent,
     world: World<'a>,
 ) -> Result<(String, &'a Entity), Refusal> {
     let (thing, entity) = thing(intent, Category::OBJECT, "object", world)?;
-    match &sim.held {
-        Some(held) if *held == thing => return Ok((thing, entity)),
-        Some(held) => return Err(Refusal::Holding(held.clone())),
+    match hold.thing() {
+        Some(held) if held == thing => return Ok((thing, entity)),
+        Some(held) => return Err(Refusal::Holding(held.to_owned())),
         None => {}
     }
     if feature(entity, "glued", world) == Some(true) {

@@ -1,0 +1,217 @@
+//! A Panda or Research 3 over the Franka Control Interface, its own network interface: an intent
+//! becomes joint motions within its limits, sent a thousand times a second by a thread of its own.
+//!
+//! What is different on the table afterwards is what the motions do to it; the hand's place is the
+//! measured one. A fault stops the arm where it is, and the command is over.
+
+mod arm;
+mod fault;
+mod worker;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Sender, channel};
+
+use deictic_core::time::Micros;
+
+use super::given::Given;
+use super::hold::Hold;
+use super::motion::{Kind, Motion, homewards, place, rehearse};
+use super::panda::Caps;
+use super::plan::plan;
+use super::{Command, CommandId, Event, Posture, Refusal, Robot, Skill, Taken, World, check};
+use arm::Arm;
+pub use fault::FciFault;
+use worker::{Report, Shared};
+
+/// The command that is being done.
+#[derive(Debug)]
+struct Running {
+    id: CommandId,
+    motions: Vec<Motion>,
+    /// The motion that is under way.
+    at: usize,
+}
+
+/// An arm on its own network interface.
+#[derive(Debug)]
+pub struct Fci {
+    shared: Arc<Shared>,
+    jobs: Sender<Vec<Motion>>,
+    hold: Hold,
+    given: Given,
+    running: Option<Running>,
+    happened: VecDeque<Event>,
+}
+
+impl Fci {
+    /// Connects to the arm at `host`, a name or number, and to its hand. Without `realtime` the
+    /// machine's scheduling is taken as it is.
+    ///
+    /// # Errors
+    /// [`FciFault`] with what to do about it.
+    pub fn connect(host: &str, realtime: bool) -> Result<Self, FciFault> {
+        let arm = Arm::connect(host, realtime)?;
+        let shared = Arc::new(Shared::default());
+        shared.met(&arm)?;
+        let (jobs, inbox) = channel();
+        let (theirs, host) = (Arc::clone(&shared), host.to_owned());
+        std::thread::Builder::new()
+            .name("fci".into())
+            .spawn(move || worker::serve(arm, &host, realtime, &inbox, &theirs))
+            .map_err(|e| FciFault::Other(e.to_string()))?;
+        Ok(Self {
+            shared,
+            jobs,
+            hold: Hold::default(),
+            given: Given::default(),
+            running: None,
+            happened: VecDeque::new(),
+        })
+    }
+
+    fn start(&mut self, id: CommandId, motions: Vec<Motion>) -> Result<Taken, Refusal> {
+        self.given.note(id);
+        if motions.is_empty() {
+            // The hand holds what it was to pick.
+            self.happened.push_back(Event::Done(id));
+            return Ok(Taken::Begun);
+        }
+        self.shared.stop.store(false, Ordering::Relaxed);
+        let gone = || FciFault::Other("the thread that moves the arm is gone".into());
+        let sent = self.jobs.send(motions.clone());
+        sent.map_err(|_| refusal(gone()))?;
+        let at = 0;
+        self.running = Some(Running { id, motions, at });
+        Ok(Taken::Begun)
+    }
+
+    fn take(&mut self, report: Report) {
+        let Some(running) = &mut self.running else {
+            return;
+        };
+        let id = running.id;
+        let name = |at: usize| running.motions.get(at).map(|m| m.name.clone());
+        match report {
+            Report::Begun(at) => {
+                running.at = at;
+                self.happened.push_back(Event::Begun {
+                    id,
+                    step: name(at).unwrap_or_default(),
+                    number: at + 1,
+                    of: running.motions.len(),
+                });
+            }
+            Report::Ended(at, joints) => {
+                let effect = running.motions.get(at).map(|m| m.effect.clone());
+                let changes = effect.map(|effect| self.hold.changes(effect, place(&joints)));
+                if let Some(changes) = changes.filter(|changes| !changes.is_empty()) {
+                    self.happened.push_back(Event::Changed { id, changes });
+                }
+            }
+            Report::Done => {
+                self.running = None;
+                self.happened.push_back(Event::Done(id));
+            }
+            Report::Stopped(at, joints) => {
+                let step = name(at).unwrap_or_default();
+                if let Some(moved) = self.hold.carried(place(&joints)) {
+                    let changes = vec![moved];
+                    self.happened.push_back(Event::Changed { id, changes });
+                }
+                self.running = None;
+                self.happened.push_back(Event::Stopped { id, step });
+            }
+            Report::Failed(at, fault) => {
+                let step = name(at).unwrap_or_default();
+                self.running = None;
+                let why = format!("{fault} (at: {step}); {}", fault.remedy());
+                let fault = fault.code();
+                self.happened.push_back(Event::Failed { id, fault, why });
+            }
+        }
+    }
+}
+
+fn refusal(fault: FciFault) -> Refusal {
+    Refusal::Arm {
+        why: fault.to_string(),
+        remedy: fault.remedy(),
+    }
+}
+
+impl Robot for Fci {
+    fn begin(
+        &mut self,
+        now: Micros,
+        command: &Command,
+        world: World<'_>,
+    ) -> Result<Taken, Refusal> {
+        self.given.check(command.id)?;
+        let skill = Skill::of(&command.intent, world.lexicon)?;
+        if skill == Skill::Stop {
+            self.given.note(command.id);
+            self.stop(now);
+            self.happened.push_back(Event::Done(command.id));
+            return Ok(Taken::Begun);
+        }
+        if self.running.is_some() {
+            return Err(Refusal::Busy);
+        }
+        command.check_scene(world)?;
+        let arm = self.shared.arm().map_err(refusal)?;
+        self.hold.look(world);
+        let hand = place(&arm.stance.joints);
+        let task = check::check(&self.hold, hand, skill, &command.intent, world)?;
+        let held = self.hold.thing().is_some() && task.thing() == self.hold.thing();
+        let steps = plan(&task, hand, held);
+        let motions = rehearse(&steps, &arm.stance, &arm.limits, &Caps::CAREFUL)?;
+        self.start(command.id, motions)
+    }
+
+    fn home(&mut self, _now: Micros, id: CommandId) -> Result<Taken, Refusal> {
+        self.given.check(id)?;
+        if self.running.is_some() {
+            return Err(Refusal::Busy);
+        }
+        let arm = self.shared.arm().map_err(refusal)?;
+        let motions = homewards(&arm.stance, &arm.limits, &Caps::CAREFUL)?;
+        self.start(id, motions)
+    }
+
+    fn stop(&mut self, _now: Micros) {
+        self.shared.stop.store(true, Ordering::Relaxed);
+        let fingers = self.running.as_ref().and_then(|running| {
+            let motion = running.motions.get(running.at)?;
+            matches!(motion.kind, Kind::Fingers { .. }).then_some(())
+        });
+        if let (Some(()), Ok(arm)) = (fingers, self.shared.arm()) {
+            // It answers when the fingers stand, and the arm's thread reports how that came out.
+            std::thread::spawn(move || arm.hand.stop());
+        }
+    }
+
+    fn poll(&mut self, _now: Micros) -> Vec<Event> {
+        for report in self.shared.reports() {
+            self.take(report);
+        }
+        self.happened.drain(..).collect()
+    }
+
+    fn progress(&self, _now: Micros) -> Option<(CommandId, u8)> {
+        let running = self.running.as_ref()?;
+        let took = |motions: &[Motion]| motions.iter().map(Motion::duration).sum::<f64>();
+        let done = took(running.motions.get(..running.at).unwrap_or_default());
+        let part = done / took(&running.motions).max(1e-3);
+        Some((running.id, (part * 100.0) as u8))
+    }
+
+    fn holding(&self) -> Option<&str> {
+        self.hold.thing()
+    }
+
+    fn posture(&self, _now: Micros) -> Option<Posture> {
+        self.shared.arm().ok().map(|arm| arm.stance.into())
+    }
+}

@@ -1,0 +1,206 @@
+//! The thread that keeps an arm company: it reads its state while it stands, follows one command's
+//! motions, and connects again when the connection broke.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use franka::Gripper;
+
+use super::FciFault;
+use super::arm::Arm;
+use crate::robot::motion::{Kind, Motion, Stance};
+use crate::robot::panda::{Joints, Limits, OPEN};
+
+/// How long after a failed attempt the arm is tried again.
+const AGAIN: Duration = Duration::from_secs(1);
+
+/// What has become of a command's motions.
+#[derive(Clone, Debug)]
+pub(super) enum Report {
+    /// The motion of this number, from 0, begins.
+    Begun(usize),
+    /// It has ended, and the arm stands so.
+    Ended(usize, Joints),
+    /// All are done.
+    Done,
+    /// The arm was stopped in this motion and stands so.
+    Stopped(usize, Joints),
+    /// This motion failed.
+    Failed(usize, FciFault),
+}
+
+/// What is known of a connected arm.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    pub stance: Stance,
+    pub limits: Limits,
+    pub hand: Arc<Gripper>,
+}
+
+/// What both threads see.
+#[derive(Debug, Default)]
+pub(super) struct Shared {
+    /// The arm, or why there is none.
+    known: Mutex<Option<Result<Known, FciFault>>>,
+    reports: Mutex<VecDeque<Report>>,
+    /// Set to make the arm come to rest.
+    pub stop: AtomicBool,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // What is behind these locks is whole at any moment.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Shared {
+    /// The arm as it is.
+    pub fn arm(&self) -> Result<Known, FciFault> {
+        lock(&self.known)
+            .clone()
+            .unwrap_or_else(|| Err(FciFault::Unreachable("not connected yet".into())))
+    }
+
+    /// What has been reported since the last call.
+    pub fn reports(&self) -> Vec<Report> {
+        lock(&self.reports).drain(..).collect()
+    }
+
+    fn report(&self, report: Report) {
+        lock(&self.reports).push_back(report);
+    }
+
+    pub(super) fn met(&self, arm: &Arm) -> Result<(), FciFault> {
+        let joints = arm.joints()?;
+        *lock(&self.known) = Some(Ok(Known {
+            stance: Stance {
+                joints,
+                opening: OPEN,
+            },
+            limits: arm.limits(),
+            hand: Arc::clone(&arm.hand),
+        }));
+        Ok(())
+    }
+
+    fn lost(&self, fault: FciFault) {
+        *lock(&self.known) = Some(Err(fault));
+    }
+
+    fn stands(&self, joints: Joints) {
+        if let Some(Ok(known)) = &mut *lock(&self.known) {
+            known.stance.joints = joints;
+        }
+    }
+
+    fn opened(&self, opening: f64) {
+        if let Some(Ok(known)) = &mut *lock(&self.known) {
+            known.stance.opening = opening;
+        }
+    }
+
+    fn stopping(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+/// Serves commands on `arm`, and on the next connection to `host` when that one breaks, until nobody
+/// can give any more.
+pub(super) fn serve(
+    arm: Arm,
+    host: &str,
+    realtime: bool,
+    inbox: &Receiver<Vec<Motion>>,
+    shared: &Shared,
+) {
+    let mut connected = Some(arm);
+    loop {
+        if let Some(arm) = connected.take() {
+            match attend(&arm, inbox, shared) {
+                Ok(()) => return,
+                Err(fault) => shared.lost(fault),
+            }
+        }
+        match inbox.recv_timeout(AGAIN) {
+            Err(RecvTimeoutError::Disconnected) => return,
+            Err(RecvTimeoutError::Timeout) => {}
+            // It was given in the moment in which the connection broke.
+            Ok(_) => {
+                let gone = FciFault::Unreachable("the connection broke".into());
+                shared.report(Report::Failed(0, gone));
+            }
+        }
+        let arm = Arm::connect(host, realtime);
+        match arm.and_then(|arm| shared.met(&arm).map(|()| arm)) {
+            Ok(arm) => connected = Some(arm),
+            Err(fault) => shared.lost(fault),
+        }
+    }
+}
+
+/// Serves commands until nobody can give any more; an error when the connection broke.
+fn attend(arm: &Arm, inbox: &Receiver<Vec<Motion>>, shared: &Shared) -> Result<(), FciFault> {
+    loop {
+        match inbox.try_recv() {
+            Err(TryRecvError::Disconnected) => return Ok(()),
+            Err(TryRecvError::Empty) => shared.stands(arm.joints()?),
+            Ok(motions) => perform(arm, &motions, shared)?,
+        }
+    }
+}
+
+/// Does one command; an error only when the connection broke.
+fn perform(arm: &Arm, motions: &[Motion], shared: &Shared) -> Result<(), FciFault> {
+    for (i, motion) in motions.iter().enumerate() {
+        if shared.stopping() {
+            shared.report(Report::Stopped(i, arm.joints()?));
+            return Ok(());
+        }
+        shared.report(Report::Begun(i));
+        match act(arm, motion, shared) {
+            Ok(Some(joints)) => {
+                shared.stands(joints);
+                shared.report(Report::Ended(i, joints));
+            }
+            Ok(None) => {
+                let joints = arm.joints()?;
+                shared.stands(joints);
+                shared.report(Report::Stopped(i, joints));
+                return Ok(());
+            }
+            // A hand that is stopped says that it did not finish.
+            Err(fault) if shared.stopping() && !fault.cuts() => {
+                shared.report(Report::Stopped(i, arm.joints()?));
+                return Ok(());
+            }
+            Err(fault) => {
+                let cut = fault.cuts();
+                shared.report(Report::Failed(i, fault.clone()));
+                return if cut { Err(fault) } else { Ok(()) };
+            }
+        }
+    }
+    shared.report(Report::Done);
+    Ok(())
+}
+
+/// Makes one motion; how the arm stands then, or `None` when it was stopped.
+fn act(arm: &Arm, motion: &Motion, shared: &Shared) -> Result<Option<Joints>, FciFault> {
+    match &motion.kind {
+        Kind::Travel(trajectory) => {
+            arm.ready()?;
+            if arm.follow(trajectory, &shared.stop, |joints| shared.stands(joints))? {
+                arm.settle(&trajectory.path().end()).map(Some)
+            } else {
+                Ok(None)
+            }
+        }
+        Kind::Fingers { to, .. } => {
+            arm.fingers(*to)?;
+            shared.opened(*to);
+            arm.joints().map(Some)
+        }
+    }
+}
