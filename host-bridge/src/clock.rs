@@ -22,6 +22,14 @@ pub fn since(earlier: Instant) -> Duration {
     now().saturating_duration_since(earlier)
 }
 
+/// How long it is until `later`; `None` from that very moment on.
+#[must_use]
+pub fn until(later: Instant) -> Option<Duration> {
+    later
+        .checked_duration_since(now())
+        .filter(|left| !left.is_zero())
+}
+
 /// Waits.
 pub fn sleep(span: Duration) {
     match SIMULATED.get() {
@@ -69,6 +77,7 @@ mod tests {
         sleep(Duration::from_secs(3_600));
         clock.advance(Duration::from_secs(1));
         assert_eq!(since(began), Duration::from_secs(3_601));
+        assert_eq!(until(now()), None);
         drop(clock);
         assert!(since(began) < Duration::from_secs(3_600));
     }

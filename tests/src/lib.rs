@@ -5,3 +5,4 @@ pub mod emulated;
 pub mod fuzz;
 pub mod host;
 pub mod method;
+pub mod network;

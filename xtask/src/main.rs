@@ -9,6 +9,7 @@
 //! | `budget` | measures the image against its golden figures |
 //! | `test` | formatting, lints, all tests, both images, budgets |
 //! | `fuzz` | fuzzes every door of core and bridge |
+//! | `faults` | plays sessions under faults of every kind |
 
 mod board;
 mod budget;
@@ -37,6 +38,7 @@ enum Command {
     Budget(cmd::budget::Budget),
     Test(cmd::test::Test),
     Fuzz(cmd::fuzz::Fuzz),
+    Faults(cmd::faults::Faults),
 }
 
 fn main() -> ExitCode {
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Command::Budget(budget) => budget.run(),
         Command::Test(test) => test.run(),
         Command::Fuzz(fuzz) => fuzz.run(),
+        Command::Faults(faults) => faults.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

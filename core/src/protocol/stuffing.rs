@@ -165,7 +165,7 @@ impl<const OUT: usize> Flavor for FrameWriter<'_, OUT> {
 /// Why a frame was dropped before anybody looked into it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameError {
-    /// The stuffing does not end where the frame does, or there is no room for a CRC.
+    /// The stuffing does not end where the frame does, or there is nothing besides a CRC.
     Malformed,
     /// The CRC does not match.
     Corrupt,
@@ -250,7 +250,13 @@ impl<const FRAME: usize> FrameReader<FRAME> {
         if left != 0 {
             return Some(Err(FrameError::Malformed));
         }
-        let Some((contents, crc)) = self.bytes.split_last_chunk::<CRC_BYTES>() else {
+        // A frame without contents says nothing, and would be sound by chance: the CRC of nothing is 0, as are the four
+        // bytes of the beginning of many a frame that was cut short.
+        let Some((contents, crc)) = self
+            .bytes
+            .split_last_chunk::<CRC_BYTES>()
+            .filter(|(contents, _)| !contents.is_empty())
+        else {
             return Some(Err(FrameError::Malformed));
         };
         if CRC.checksum(contents) != u32::from_le_bytes(*crc) {

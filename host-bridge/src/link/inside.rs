@@ -52,7 +52,7 @@ impl Wire for Inside {
                 self.unit.sent(taken);
                 return Ok(taken);
             }
-            let Some(left) = until.checked_duration_since(clock::now()) else {
+            let Some(left) = clock::until(until) else {
                 return Ok(0);
             };
             let wake = Duration::from_micros(self.unit.next_wake().since(now).0);

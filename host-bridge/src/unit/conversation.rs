@@ -134,7 +134,7 @@ impl Conversation {
         while clock::now() < until {
             self.say(&ToUnit::Hello(ours))?;
             let again = clock::now() + AGAIN;
-            while let Some(left) = again.checked_duration_since(clock::now()) {
+            while let Some(left) = clock::until(again) {
                 for (message, _) in self.hear(left)? {
                     if let ToHost::Hello(theirs) = message {
                         let (unit, host) = ((theirs.version, theirs.schema), (VERSION, SCHEMA));
@@ -211,7 +211,7 @@ impl Conversation {
     fn is_loaded(&mut self, what: Loaded) -> Result<bool, UnitError> {
         let until = clock::now() + PATIENCE;
         let mut others = std::mem::take(&mut self.pending);
-        while let Some(left) = until.checked_duration_since(clock::now()) {
+        while let Some(left) = clock::until(until) {
             let mut heard = self.hear(left.min(AGAIN))?.into_iter();
             while let Some((message, missed)) = heard.next() {
                 match message {

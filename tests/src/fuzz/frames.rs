@@ -15,7 +15,7 @@ pub fn run(bytes: &[u8]) {
     let rest = source.bytes(usize::MAX);
     match kind {
         0 => any(rest),
-        1 => cut(&rest[..rest.len().min(FRAME - 4)]),
+        1 if !rest.is_empty() => cut(&rest[..rest.len().min(FRAME - 4)]),
         _ => damaged(rest),
     }
 }
@@ -45,6 +45,7 @@ fn expected(bytes: &[u8]) -> Vec<(usize, Vec<u8>)> {
             continue;
         }
         if let Some((contents, crc)) = contents.split_last_chunk::<4>()
+            && !contents.is_empty()
             && crc32(contents) == u32::from_le_bytes(*crc)
         {
             frames.push((at, contents.to_vec()));
@@ -103,6 +104,9 @@ fn damaged(bytes: &[u8]) {
         .map(|_| (usize::from(source.byte()), source.small(8)))
         .collect();
     let contents = source.bytes(FRAME - 4);
+    if contents.is_empty() {
+        return;
+    }
     let mut line = framed(contents);
     let sound = line.clone();
     for (at, bit) in flips {

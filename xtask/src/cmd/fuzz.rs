@@ -108,7 +108,7 @@ fn build(work: &Path) -> Result<()> {
     let mut build = cargo();
     build
         .current_dir(root().join("tests/fuzz"))
-        .args(["build", "--release", "--locked", "--target", &host()?])
+        .args(["build", "--release", "--target", &host()?])
         .env("CARGO_TARGET_DIR", work)
         .env("RUSTFLAGS", INSTRUMENTED)
         .env_remove("CARGO_ENCODED_RUSTFLAGS");

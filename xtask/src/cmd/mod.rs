@@ -2,6 +2,7 @@
 
 pub mod budget;
 pub mod demo;
+pub mod faults;
 pub mod firmware;
 pub mod fuzz;
 pub mod qemu;

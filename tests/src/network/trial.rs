@@ -1,0 +1,357 @@
+//! One session under faults, and what must hold of it whatever happens.
+
+use std::time::Duration;
+
+use deictic::clock::Simulated;
+use deictic::link::Wire;
+use deictic::robot::Event;
+use deictic::scene::{SceneFile, Tabletop};
+use deictic::session::{Happening, Session};
+use deictic::showing::showing;
+use deictic::unit::UNIT_LOST;
+use deictic::vocabulary::Lexicon;
+use deictic_bits::random::Random;
+use deictic_core::category::Category;
+use deictic_core::large::Sentence;
+use deictic_core::protocol::message::Configuration;
+use deictic_core::sentence::LANGUAGE;
+use deictic_core::time::Micros;
+
+use super::line::Faults;
+use super::watch::Watch;
+use super::world::World;
+
+/// How a command ended: exactly one of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum End {
+    /// The robot did it.
+    Done,
+    /// Something would not do it, and said so.
+    Refused,
+    /// The person was asked, and answers with a new command.
+    Asked,
+    /// It was stopped, before or on the way.
+    Stopped,
+    /// It was lost, and the person was told.
+    Lost,
+}
+
+/// What came of a session.
+#[derive(Clone, Debug, Default)]
+pub struct Account {
+    /// How its commands ended.
+    pub ends: Vec<End>,
+    /// How many commands the robot began.
+    pub begun: usize,
+    /// How often the unit was lost.
+    pub losses: usize,
+    /// The longest the robot moved after the last whole frame from the unit.
+    pub alone: Micros,
+}
+
+/// What is said and shown, as the vocabulary calls it.
+const COMMANDS: [&str; 8] = [
+    "pick can",
+    "put-into can drawer",
+    "push cube",
+    "unglue box",
+    "move-up",
+    "pick cup",
+    "put-into cup bowl",
+    "release",
+];
+
+/// How long one turn of the session waits.
+const TURN: Duration = Duration::from_millis(20);
+
+/// How long a command may take until it must have ended, whatever the faults.
+const PATIENCE: Micros = Micros::from_millis(120_000);
+
+/// What every session starts from.
+pub struct Setting {
+    lexicon: Lexicon,
+    table: Tabletop,
+}
+
+impl Default for Setting {
+    fn default() -> Self {
+        let lexicon = Lexicon::tabletop().expect("the built-in vocabulary is sound");
+        let table = SceneFile::table().expect("the built-in scene is sound");
+        let table = table.tabletop(&lexicon).expect("they belong together");
+        Self { lexicon, table }
+    }
+}
+
+impl Setting {
+    fn say(&self, text: &str, modality: u8) -> Sentence {
+        let shown = showing(text, &self.lexicon).expect("a command of the list");
+        let mut sentence = Sentence::new(modality);
+        for word in shown.words() {
+            sentence.push(word.clone()).expect("it fitted before");
+        }
+        sentence
+    }
+}
+
+/// Runs the session of this seed.
+///
+/// # Panics
+/// When something does not hold.
+#[must_use]
+pub fn run(setting: &Setting, seed: u64) -> Account {
+    let clock = Simulated::start();
+    let mut random = Random::new(seed);
+    let world = World::new(random.next());
+    let robot = Watch::new(1.0 + random.below(8) as f32);
+    let wire = world.clone();
+    let mut trial = Trial {
+        session: Session::open(
+            Box::new(move || Ok(Box::new(wire.clone()) as Box<dyn Wire>)),
+            Box::new(robot.clone()),
+            setting.table.clone(),
+            &setting.lexicon,
+            Configuration {
+                window: Micros::from_millis(600),
+                ..Configuration::DEFAULT
+            },
+        )
+        .expect("nothing is wrong yet"),
+        world: world.clone(),
+        began: world.now(),
+        robot,
+        faults: faults(&mut random),
+        random,
+        account: Account::default(),
+        happened: Vec::new(),
+        watched: 0,
+    };
+    trial.world.set_faults(trial.faults);
+    if trial.random.one_in(4) {
+        let width = 1 + trial.random.below(40) as usize;
+        trial.world.narrow(width);
+    }
+    for _ in 0..1 + trial.random.below(3) {
+        trial.command(setting);
+    }
+    trial.check_robot();
+    drop(clock);
+    trial.account.begun = trial.robot.seen().begun.len();
+    trial.account
+}
+
+/// Faults of one session: mostly one or two kinds, from hardly any to every other frame.
+fn faults(random: &mut Random) -> Faults {
+    let mut often = || match random.below(3) {
+        0 => 2 + random.below(60),
+        _ => 0,
+    };
+    Faults {
+        lost: often(),
+        flipped: often(),
+        burst: often(),
+        cut: often(),
+        doubled: often(),
+        delayed: often(),
+        noise: often(),
+    }
+}
+
+struct Trial<'a> {
+    session: Session<'a>,
+    world: World,
+    /// When the session began, from which it counts the robot's time.
+    began: Micros,
+    robot: Watch,
+    faults: Faults,
+    random: Random,
+    account: Account,
+    /// All that happened since the command was given.
+    happened: Vec<Happening>,
+    /// How many of the robot's commands have been looked at.
+    watched: usize,
+}
+
+impl Trial<'_> {
+    fn command(&mut self, setting: &Setting) {
+        let text = COMMANDS[self.random.below(COMMANDS.len() as u32) as usize];
+        self.happened.clear();
+        let began = self.world.now();
+        let given = self.session.observe(setting.say(text, LANGUAGE)).is_ok()
+            && self.session.observe(setting.say(text, 0)).is_ok();
+        let mut stopped = false;
+        let mut mishaps = self.random.below(3);
+        let mut at = self.random.below(120);
+        let mut turns = 0_u32;
+        loop {
+            self.turn();
+            if turns == at && mishaps > 0 {
+                stopped |= self.mishap(setting);
+                mishaps -= 1;
+                at = turns + 1 + self.random.below(60);
+            }
+            turns += 1;
+            let idle = self.session.is_idle() && self.session.unit().is_there();
+            if idle && mishaps == 0 {
+                break;
+            }
+            let waited = self.world.now().since(began);
+            assert!(
+                waited < PATIENCE.after(PATIENCE),
+                "it never ends: {:#?}",
+                self.happened
+            );
+            if waited > PATIENCE {
+                // With a line this bad nothing can be loaded; the person mends it.
+                self.world.set_faults(Faults::NONE);
+                self.world.narrow(usize::MAX);
+                mishaps = 0;
+            } else if idle && mishaps > 0 {
+                at = turns;
+            }
+        }
+        self.world.set_faults(self.faults);
+        self.robot.revive();
+        let end = self.end(given, stopped);
+        self.account.ends.push(end);
+    }
+
+    fn turn(&mut self) {
+        let happened = self.session.turn(TURN);
+        self.account.losses += happened
+            .iter()
+            .filter(|h| matches!(h, Happening::Lost(_)))
+            .count();
+        self.happened.extend(happened);
+        self.check_motion();
+        self.check_robot();
+    }
+
+    /// Something goes wrong, or the person says stop. Gives whether it was a stop.
+    fn mishap(&mut self, setting: &Setting) -> bool {
+        let span = Micros(u64::from(self.random.below(4_000_000)));
+        match self.random.below(8) {
+            0 => self.world.restart(),
+            1 => {
+                let more = self.random.below(300) as usize;
+                self.world.pull(span, more);
+            }
+            2 => self.world.freeze(span),
+            3 => self
+                .world
+                .jump(span.after(Micros::from_millis(u64::from(self.random.below(100_000))))),
+            4 => {
+                self.world.sleep(span);
+                // Whoever slept sees to the robot first.
+                return false;
+            }
+            5 => {
+                let moment = self.robot_now();
+                self.robot.kill(moment);
+            }
+            6 => {
+                self.session.stop();
+                self.check_still();
+                return true;
+            }
+            _ => {
+                let vocabulary = setting.lexicon.vocabulary();
+                let stop = vocabulary.stop().expect("the tabletop has one");
+                let name = setting.lexicon.option_name(Category::ACTION, stop);
+                let _ = self.session.observe(setting.say(&name, LANGUAGE));
+                self.check_still();
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The robot's time is the session's, which began after the world's.
+    fn robot_now(&self) -> Micros {
+        Micros(self.world.now().since(self.began).0)
+    }
+
+    /// A stop stops at once.
+    fn check_still(&self) {
+        let moment = self.robot_now();
+        assert!(
+            !self.robot.seen().is_moving(moment),
+            "it moves after a stop"
+        );
+    }
+
+    /// Nothing moves for longer than the bound after the unit was heard last.
+    fn check_motion(&mut self) {
+        let moment = self.robot_now();
+        if !self.robot.seen().is_moving(moment) {
+            return;
+        }
+        let alone = self.world.now().since(self.world.inside().heard);
+        self.account.alone = self.account.alone.max(alone);
+        // The bridge finds the silence out in the turn in which it becomes too long.
+        let bound = UNIT_LOST + 2 * TURN;
+        assert!(
+            Duration::from_micros(alone.0) <= bound,
+            "it moves {} ms after the unit was heard last",
+            alone.0 / 1000
+        );
+    }
+
+    /// Everything the robot began is something the unit told, on the scene that was there, and each of them once.
+    fn check_robot(&mut self) {
+        let seen = self.robot.seen();
+        assert!(
+            seen.nothing_twice(),
+            "something was begun twice: {:#?}",
+            seen.begun
+        );
+        for (command, _) in &seen.begun[self.watched..] {
+            let mut inside = self.world.inside();
+            let told = inside
+                .told
+                .iter()
+                .find(|(_, told)| told.scene == command.scene && told.intent == command.intent)
+                .map(|(number, _)| *number);
+            match told {
+                // Each decision can be carried out once.
+                Some(number) => drop(inside.told.remove(&number)),
+                None => panic!("nobody told it to: {command:#?}"),
+            }
+        }
+        self.watched = seen.begun.len();
+    }
+
+    /// How the command ended, by all that happened since it was given.
+    fn end(&self, given: bool, stopped: bool) -> End {
+        let count = |is: fn(&Happening) -> bool| self.happened.iter().filter(|h| is(h)).count();
+        let begun = count(|h| matches!(h, Happening::Accepted(_)));
+        let done = count(|h| matches!(h, Happening::Robot(Event::Done(_))));
+        let halted = count(|h| matches!(h, Happening::Robot(Event::Stopped { .. })));
+        let failed = count(|h| matches!(h, Happening::Robot(Event::Failed { .. })));
+        let refused = count(|h| matches!(h, Happening::Refused { .. } | Happening::Fault(_)));
+        let distrusted = count(|h| matches!(h, Happening::Distrusted(_)));
+        let asked = count(|h| match h {
+            Happening::Decided { decision, .. } => {
+                !matches!(decision.outcome, deictic_core::decide::Outcome::Execute(_))
+            }
+            _ => false,
+        });
+        let overruled = count(|h| matches!(h, Happening::Overruled));
+        let lost = count(|h| matches!(h, Happening::Lost(_) | Happening::NoDecision));
+        assert_eq!(
+            begun,
+            done + halted + failed,
+            "what is begun ends once: {:#?}",
+            self.happened
+        );
+        match () {
+            () if halted > 0 => End::Stopped,
+            () if failed > 0 => End::Lost,
+            () if done > 0 && (!stopped || begun > 1) => End::Done,
+            () if stopped || overruled > 0 => End::Stopped,
+            () if asked > 0 => End::Asked,
+            () if refused > 0 || distrusted > 0 => End::Refused,
+            () if lost > 0 || !given => End::Lost,
+            () => panic!("a command has come to nothing: {:#?}", self.happened),
+        }
+    }
+}
