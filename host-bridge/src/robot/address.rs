@@ -80,7 +80,7 @@ pub fn reach(address: &Address, haste: f32) -> Result<Box<dyn Robot>, RobotError
     Ok(match address {
         Address::Sim => Box::new(Sim::new(haste)),
         Address::Fci { host, realtime } => {
-            Box::new(Fci::connect(host, *realtime).map_err(RobotError::Fci)?)
+            Box::new(Fci::connect(host, host, *realtime).map_err(RobotError::Fci)?)
         }
     })
 }

@@ -39,6 +39,15 @@ const SETTLING: usize = 500;
 /// How long the arm takes to come to rest when it is stopped, in seconds.
 const BRAKING: f64 = 0.25;
 
+/// Where an arm is.
+#[derive(Clone, Debug)]
+pub(super) struct Host {
+    pub arm: String,
+    pub hand: String,
+    /// Whether this machine must do real time.
+    pub realtime: bool,
+}
+
 /// A connected arm.
 pub(super) struct Arm {
     robot: franka::Robot,
@@ -47,15 +56,15 @@ pub(super) struct Arm {
 }
 
 impl Arm {
-    /// Connects to the arm at `host` and makes it yield to what it touches.
-    pub fn connect(host: &str, realtime: bool) -> Result<Self, FciFault> {
-        let realtime = if realtime {
+    /// Connects to the arm and makes it yield to what it touches.
+    pub fn connect(host: &Host) -> Result<Self, FciFault> {
+        let realtime = if host.realtime {
             RealtimeConfig::Enforce
         } else {
             RealtimeConfig::Ignore
         };
-        let robot = franka::Robot::with_options(host, RobotOptions::new(realtime))?;
-        let hand = Arc::new(Gripper::new(host)?);
+        let robot = franka::Robot::with_options(&host.arm, RobotOptions::new(realtime))?;
+        let hand = Arc::new(Gripper::new(&host.hand)?);
         let state = robot.read_once()?;
         if state.robot_mode == RobotMode::Reflex {
             robot.automatic_error_recovery()?;

@@ -21,7 +21,7 @@ use super::motion::{Kind, Motion, homewards, place, rehearse};
 use super::panda::Caps;
 use super::plan::plan;
 use super::{Command, CommandId, Event, Posture, Refusal, Robot, Skill, Taken, World, check};
-use arm::Arm;
+use arm::{Arm, Host};
 pub use fault::FciFault;
 use worker::{Report, Shared};
 
@@ -46,20 +46,26 @@ pub struct Fci {
 }
 
 impl Fci {
-    /// Connects to the arm at `host`, a name or number, and to its hand. Without `realtime` the
-    /// machine's scheduling is taken as it is.
+    /// Connects to the arm and its hand, each a name or number, with a port where it is not the usual
+    /// one; on a real arm both are the same host. Without `realtime` the machine's scheduling is taken
+    /// as it is.
     ///
     /// # Errors
     /// [`FciFault`] with what to do about it.
-    pub fn connect(host: &str, realtime: bool) -> Result<Self, FciFault> {
-        let arm = Arm::connect(host, realtime)?;
+    pub fn connect(arm: &str, hand: &str, realtime: bool) -> Result<Self, FciFault> {
+        let host = Host {
+            arm: arm.to_owned(),
+            hand: hand.to_owned(),
+            realtime,
+        };
+        let arm = Arm::connect(&host)?;
         let shared = Arc::new(Shared::default());
         shared.met(&arm)?;
         let (jobs, inbox) = channel();
-        let (theirs, host) = (Arc::clone(&shared), host.to_owned());
+        let theirs = Arc::clone(&shared);
         std::thread::Builder::new()
             .name("fci".into())
-            .spawn(move || worker::serve(arm, &host, realtime, &inbox, &theirs))
+            .spawn(move || worker::serve(arm, &host, &inbox, &theirs))
             .map_err(|e| FciFault::Other(e.to_string()))?;
         Ok(Self {
             shared,

@@ -10,7 +10,7 @@ use std::time::Duration;
 use franka::Gripper;
 
 use super::FciFault;
-use super::arm::Arm;
+use super::arm::{Arm, Host};
 use crate::robot::motion::{Kind, Motion, Stance};
 use crate::robot::panda::{Joints, Limits, OPEN};
 
@@ -108,13 +108,7 @@ impl Shared {
 
 /// Serves commands on `arm`, and on the next connection to `host` when that one breaks, until nobody
 /// can give any more.
-pub(super) fn serve(
-    arm: Arm,
-    host: &str,
-    realtime: bool,
-    inbox: &Receiver<Vec<Motion>>,
-    shared: &Shared,
-) {
+pub(super) fn serve(arm: Arm, host: &Host, inbox: &Receiver<Vec<Motion>>, shared: &Shared) {
     let mut connected = Some(arm);
     loop {
         if let Some(arm) = connected.take() {
@@ -132,7 +126,7 @@ pub(super) fn serve(
                 shared.report(Report::Failed(0, gone));
             }
         }
-        let arm = Arm::connect(host, realtime);
+        let arm = Arm::connect(host);
         match arm.and_then(|arm| shared.met(&arm).map(|()| arm)) {
             Ok(arm) => connected = Some(arm),
             Err(fault) => shared.lost(fault),
