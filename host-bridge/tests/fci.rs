@@ -137,8 +137,11 @@ fn a_stop_comes_to_rest_on_the_way() {
     while lab.fer.state().cycles < 300 {
         std::thread::sleep(Duration::from_millis(1));
     }
-    lab.fci.stop(NOW);
-    assert!(matches!(lab.ending(), Event::Stopped { .. }));
+    lab.begin("stop", &[]).unwrap();
+    let stop = CommandId { run: 1, number: 2 };
+    let events = lab.until(|e| *e == Event::Done(stop));
+    let stopped = |e: &Event| matches!(e, Event::Stopped { id, .. } if id.number == 1);
+    assert!(events.iter().any(stopped), "stands before it is done");
     let rest = lab.fer.state().q;
     assert!(lab.hand_is_off([0.307, 0.0, 0.587]) > 5e-3, "on the way");
     std::thread::sleep(Duration::from_millis(50));

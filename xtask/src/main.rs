@@ -8,6 +8,7 @@
 //! | `qemu` | boots the unit in QEMU and says how to connect |
 //! | `budget` | measures the image against its golden figures |
 //! | `test` | formatting, lints, all tests, both images, budgets |
+//! | `fci` | plays the session on an arm that speaks its own network interface (franka-sim) |
 //! | `fuzz` | fuzzes every door of core and bridge |
 //! | `faults` | plays sessions under faults of every kind |
 
@@ -37,6 +38,7 @@ enum Command {
     Qemu(cmd::qemu::Qemu),
     Budget(cmd::budget::Budget),
     Test(cmd::test::Test),
+    Fci(cmd::fci::Fci),
     Fuzz(cmd::fuzz::Fuzz),
     Faults(cmd::faults::Faults),
 }
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         Command::Qemu(qemu) => qemu.run(),
         Command::Budget(budget) => budget.run(),
         Command::Test(test) => test.run(),
+        Command::Fci(fci) => fci.run(),
         Command::Fuzz(fuzz) => fuzz.run(),
         Command::Faults(faults) => faults.run(),
     };

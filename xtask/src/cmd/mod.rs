@@ -3,6 +3,7 @@
 pub mod budget;
 pub mod demo;
 pub mod faults;
+pub mod fci;
 pub mod firmware;
 pub mod fuzz;
 pub mod qemu;

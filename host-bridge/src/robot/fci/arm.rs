@@ -33,6 +33,10 @@ const NEAR: f64 = 1e-3;
 /// How long it may take to come that near, in seconds.
 const PATIENCE: f64 = 1.0;
 
+/// The longest step in time that one command makes, in seconds: after lost cycles the arm goes on from
+/// where it waits, instead of leaping to where it would have been.
+const STRIDE: f64 = 5e-3;
+
 /// How many states the hand may take to come to rest: one a millisecond.
 const SETTLING: usize = 500;
 
@@ -123,7 +127,7 @@ impl Arm {
                 FciVersion::V10 => state.q,
             };
             let start = *start.get_or_insert(stands);
-            let period = period.as_secs_f64();
+            let period = period.as_secs_f64().min(STRIDE);
             if stop.load(Ordering::Relaxed) {
                 braked = (braked + period / BRAKING).min(1.0);
             }

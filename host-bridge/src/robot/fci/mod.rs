@@ -42,6 +42,8 @@ pub struct Fci {
     hold: Hold,
     given: Given,
     running: Option<Running>,
+    /// Commands to stop, which are done when the arm stands.
+    stops: Vec<CommandId>,
     happened: VecDeque<Event>,
 }
 
@@ -73,6 +75,7 @@ impl Fci {
             hold: Hold::default(),
             given: Given::default(),
             running: None,
+            stops: Vec::new(),
             happened: VecDeque::new(),
         })
     }
@@ -159,7 +162,7 @@ impl Robot for Fci {
         if skill == Skill::Stop {
             self.given.note(command.id);
             self.stop(now);
-            self.happened.push_back(Event::Done(command.id));
+            self.stops.push(command.id);
             return Ok(Taken::Begun);
         }
         if self.running.is_some() {
@@ -201,6 +204,9 @@ impl Robot for Fci {
     fn poll(&mut self, _now: Micros) -> Vec<Event> {
         for report in self.shared.reports() {
             self.take(report);
+        }
+        if self.running.is_none() {
+            self.happened.extend(self.stops.drain(..).map(Event::Done));
         }
         self.happened.drain(..).collect()
     }
