@@ -6,7 +6,8 @@
 
 use crate::category::Category;
 use crate::math::larger;
-use crate::sentence::{MODALITIES, Observations, Word};
+use crate::observations::Observations;
+use crate::sentence::{MODALITIES, Word};
 
 /// The words that speak of one category, by modality.
 pub type Slot<'a, const C: usize, const N: usize> = [Option<&'a Word<C, N>>; MODALITIES];

@@ -28,8 +28,8 @@ macro_rules! capacities {
             pub type Word = crate::sentence::Word<$c, $n>;
             /// [`crate::sentence::Sentence`] of these capacities.
             pub type Sentence = crate::sentence::Sentence<$w, $c, $n>;
-            /// [`crate::sentence::Observations`] of these capacities.
-            pub type Observations = crate::sentence::Observations<$w, $c, $n>;
+            /// [`crate::observations::Observations`] of these capacities.
+            pub type Observations = crate::observations::Observations<$w, $c, $n>;
             /// [`crate::intent::Intent`] of these capacities.
             pub type Intent = crate::intent::Intent<$c>;
             /// [`crate::decide::Decision`] of these capacities.

@@ -14,10 +14,11 @@ use crate::feasibility::{apply_penalties, weigh_requirements, weigh_signatures};
 use crate::judgement::{Judgement, has, judge};
 use crate::math;
 use crate::merge::{Mix, penalise, weigh};
+use crate::observations::Observations;
 use crate::profile::{BetaScope, Missing, Model, Presence, Profile, ProfileError, Threshold};
 use crate::reference;
 use crate::scene::Scene;
-use crate::sentence::{GESTURE, LANGUAGE, Observations, Word};
+use crate::sentence::{GESTURE, LANGUAGE, Word};
 use crate::trace::{CategoryTrace, Trace};
 use crate::vocabulary::Vocabulary;
 

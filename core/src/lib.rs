@@ -47,6 +47,7 @@ pub mod intent;
 pub mod judgement;
 pub mod math;
 pub mod merge;
+pub mod observations;
 pub mod profile;
 pub mod protocol;
 pub mod reference;

@@ -1,8 +1,6 @@
 //! What one modality observed: the ordered words of a sentence, each a likelihood per option and a
 //! probability over categories (the paper, Problem formulation: observations from modalities).
 
-use core::borrow::Borrow;
-
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -260,115 +258,6 @@ pub const MODALITIES: usize = 4;
 pub const GESTURE: u8 = 0;
 /// What was said or typed.
 pub const LANGUAGE: u8 = 1;
-
-/// At most one checked sentence per modality: all that one decision draws on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Observations<const W: usize, const C: usize, const N: usize> {
-    sentences: [Sentence<W, C, N>; MODALITIES],
-    /// The modalities that are there, one bit each.
-    there: u8,
-}
-
-impl<const W: usize, const C: usize, const N: usize> Default for Observations<W, C, N> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<const W: usize, const C: usize, const N: usize> Observations<W, C, N> {
-    /// Nothing observed.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self {
-            sentences: [const { Sentence::new(0) }; MODALITIES],
-            there: 0,
-        }
-    }
-
-    /// Checks a sentence against the vocabulary it speaks of and adds it, in place of an earlier one
-    /// of the same modality.
-    ///
-    /// # Errors
-    /// [`SentenceError`]; nothing has changed then.
-    pub fn insert<const F: usize>(
-        &mut self,
-        sentence: impl Borrow<Sentence<W, C, N>>,
-        vocabulary: &Vocabulary<N, C, F>,
-    ) -> Result<(), SentenceError> {
-        let sentence = sentence.borrow();
-        sentence.check(vocabulary)?;
-        let place = self.place(sentence.modality)?;
-        place.restart(sentence.modality);
-        sentence
-            .words
-            .iter()
-            .try_for_each(|word| place.push(word.clone()))?;
-        self.there |= bit(sentence.modality);
-        Ok(())
-    }
-
-    /// Appends a sentence's words to those that are there of `modality`, whichever it is of.
-    ///
-    /// # Errors
-    /// [`SentenceError`]; the words before the one that did not fit have been appended.
-    pub fn append<const F: usize>(
-        &mut self,
-        modality: u8,
-        sentence: &Sentence<W, C, N>,
-        vocabulary: &Vocabulary<N, C, F>,
-    ) -> Result<(), SentenceError> {
-        sentence.check(vocabulary)?;
-        let there = self.there & bit(modality) != 0;
-        let place = self.place(modality)?;
-        if !there {
-            place.restart(modality);
-        }
-        sentence
-            .words
-            .iter()
-            .try_for_each(|word| place.push(word.clone()))?;
-        self.there |= bit(modality);
-        Ok(())
-    }
-
-    fn place(&mut self, modality: u8) -> Result<&mut Sentence<W, C, N>, SentenceError> {
-        let place = self.sentences.get_mut(usize::from(modality));
-        place.ok_or(SentenceError::UnknownModality {
-            capacity: MODALITIES as u8,
-        })
-    }
-
-    /// Forgets everything.
-    pub fn clear(&mut self) {
-        self.sentences
-            .iter_mut()
-            .for_each(|sentence| sentence.restart(0));
-        self.there = 0;
-    }
-
-    /// The modalities that are there, one bit each.
-    #[must_use]
-    pub fn modalities(&self) -> u8 {
-        self.there
-    }
-
-    /// The sentence of this modality, if there is one.
-    #[must_use]
-    pub fn get(&self, modality: u8) -> Option<&Sentence<W, C, N>> {
-        let sentence = self.sentences.get(usize::from(modality));
-        sentence.filter(|_| self.there & bit(modality) != 0)
-    }
-
-    /// The sentences, by modality.
-    pub fn iter(&self) -> impl Iterator<Item = &Sentence<W, C, N>> {
-        (0..MODALITIES as u8).filter_map(|modality| self.get(modality))
-    }
-}
-
-/// The bit of a modality in a set of them.
-fn bit(modality: u8) -> u8 {
-    1_u8.checked_shl(u32::from(modality)).unwrap_or(0)
-}
 
 #[cfg(test)]
 mod tests {

@@ -9,8 +9,9 @@ use crate::category::Category;
 use crate::decide::{Decision, Outcome};
 use crate::fuse::{Situation, fuse, says_clearly};
 use crate::intent::Intent;
+use crate::observations::Observations;
 use crate::protocol::message::{Decided, Fault, SentencePart, ToHost, Why, WhyActions};
-use crate::sentence::{GESTURE, Observations, Sentence};
+use crate::sentence::{GESTURE, Sentence};
 use crate::time::Micros;
 
 /// The modality under which answers to questions are fused with what they were asked about.
