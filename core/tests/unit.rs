@@ -197,6 +197,35 @@ fn two_modalities_are_decided_as_soon_as_both_are_there() {
 }
 
 #[test]
+fn a_unit_that_is_restarted_is_as_new() {
+    let conversation = |bench: &mut Bench| {
+        let mut heard = bench.say(&hello());
+        heard.extend(bench.all(vocabulary_parts()));
+        heard.extend(bench.all(scene_parts(1)));
+        heard.extend(bench.tell(&said()));
+        heard.extend(bench.tell(&shown()));
+        heard.extend(bench.say(&ToUnit::AskStatistics));
+        heard
+    };
+    let mut used = Bench::ready();
+    used.tell(&said());
+    used.tell(&shown());
+    used.bytes(&[1, 2, 3]);
+    used.unit.restart(42);
+    let mut bench = Bench {
+        unit: used.unit,
+        ..Bench::new()
+    };
+    let mut fresh = Bench::new();
+    let again = conversation(&mut bench);
+    assert_eq!(
+        format!("{again:?}"),
+        format!("{:?}", conversation(&mut fresh))
+    );
+    assert_eq!(again.len(), 5);
+}
+
+#[test]
 fn one_modality_is_decided_when_the_window_closes() {
     let mut bench = Bench::ready();
     assert_eq!(bench.decision(said()), None);

@@ -166,6 +166,13 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         self.begin_anew();
     }
 
+    /// As new, in place.
+    pub fn restart(&mut self) {
+        self.forget();
+        self.tracking = Tracking::new();
+        self.counters = SampleCounters::ZERO;
+    }
+
     /// The hand is gone.
     fn leave(&mut self) {
         self.shapes = Evidence::new();

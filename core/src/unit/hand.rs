@@ -60,6 +60,14 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
         }
     }
 
+    /// As new, in place.
+    #[inline(never)]
+    pub fn restart(&mut self) {
+        self.line = SensorLine::new();
+        self.reader.restart();
+        self.clear();
+    }
+
     /// As new, in place; what was counted stays.
     pub fn clear(&mut self) {
         self.forget();

@@ -98,9 +98,24 @@ impl<
         }
     }
 
-    /// Tells this start from others, for a unit in a static whose `boot` is known at run time only.
-    pub fn set_boot(&mut self, boot: u32) {
+    /// Makes a unit as new, in place: one that has run before, or one in a static of zeros. A new one
+    /// would be built on the stack first, and in a static's first value it would take its whole size
+    /// of flash.
+    #[inline(never)]
+    pub fn restart(&mut self, boot: u32) {
         self.boot = boot;
+        self.link = Link::new();
+        self.outbox.abandon();
+        self.open = false;
+        self.heard = Micros(0);
+        self.beat = Micros(0);
+        self.loading.clear();
+        self.pairing.restart();
+        self.hand.restart();
+        self.trace.clear();
+        self.configuration = Configuration::DEFAULT;
+        self.moving = false;
+        self.statistics = Statistics::default();
     }
 
     /// What this build holds.

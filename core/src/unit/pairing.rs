@@ -75,6 +75,15 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
         }
     }
 
+    /// As new, in place.
+    pub fn restart(&mut self) {
+        self.clear();
+        self.arriving.restart(0);
+        self.answers = None;
+        self.complete = false;
+        self.numbered = 0;
+    }
+
     /// Forgets what waits; decisions keep being numbered on.
     pub fn clear(&mut self) {
         self.observations.clear();

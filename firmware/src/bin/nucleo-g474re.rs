@@ -11,12 +11,12 @@ use deictic_firmware::nucleo_g474re::NucleoG474Re;
 
 #[entry]
 fn main() -> ! {
-    // Written here rather than copied from flash: its first value is mostly zeros, 17 KB of them.
-    static mut UNIT: MaybeUninit<Unit> = MaybeUninit::uninit();
+    // SAFETY: zeros are a value of every part of a unit; for one of which they were not, the compiler would refuse this.
+    static mut UNIT: Unit = unsafe { MaybeUninit::zeroed().assume_init() };
     match NucleoG474Re::start() {
         Some(mut board) => {
-            let unit = UNIT.write(Unit::new(board.boot()));
-            deictic_firmware::run(&mut board, unit)
+            UNIT.restart(board.boot());
+            deictic_firmware::run(&mut board, UNIT)
         }
         None => loop {
             cortex_m::asm::wfi();
