@@ -342,7 +342,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
 
 /// Names the `open` options as candidates, most likely first, the first among equals.
 #[inline(never)]
-fn name(question: &mut Question, merged: &[f32], mut open: u64) {
+pub(crate) fn name(question: &mut Question, merged: &[f32], mut open: u64) {
     let mut ranks = [(f32::NEG_INFINITY, 0); CANDIDATES];
     for (option, &w) in merged.iter().enumerate() {
         let is_open = open & 1 != 0;

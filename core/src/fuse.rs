@@ -11,6 +11,8 @@ use crate::category::Category;
 use crate::decide::{Decision, decide};
 use crate::entropy;
 use crate::feasibility::{apply_penalties, weigh_requirements, weigh_signatures};
+use crate::joint::belief::Belief;
+use crate::joint::{self, Tables};
 use crate::judgement::{Judgement, has, judge};
 use crate::math;
 use crate::merge::{Mix, penalise, weigh};
@@ -52,7 +54,8 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
     fuse_with(situation, profile, &profile.merge, trace)
 }
 
-/// Decides with any mixing operator, and leaves in `trace` why.
+/// Decides with any mixing operator, and leaves in `trace` why. The joint model mixes nothing; where
+/// sensors are known, [`joint::fuse`] takes them.
 ///
 /// # Errors
 /// [`ProfileError`] when the profile is not sound; the trace is then empty.
@@ -62,7 +65,11 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
     mix: &impl Mix,
     trace: &mut Trace<C, N>,
 ) -> Result<Decision<C>, ProfileError> {
+    if profile.model == Model::Joint {
+        return joint::fuse(situation, Tables::NONE, profile, trace);
+    }
     profile.check().inspect_err(|_| trace.clear())?;
+    trace.belief = Belief::NONE;
     let Situation {
         vocabulary,
         scene,

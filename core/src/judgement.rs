@@ -61,13 +61,14 @@ pub(crate) fn bit(option: u8) -> u64 {
 #[inline(never)]
 pub fn judge(w: &[f32], h: &[f32], entropy: f32, threshold: Threshold) -> (Judgement, f32) {
     let limit = match threshold {
-        Threshold::None => 0.0,
+        // The joint model judges whole intents and does not come here with a risk.
+        Threshold::None | Threshold::Risk { .. } => 0.0,
         Threshold::Entropy => entropy,
         Threshold::WhiteNoise => crate::entropy::white_noise(w.len()),
         Threshold::Fixed { clear, .. } => clear,
     };
     let judgement = match threshold {
-        Threshold::None => classify(w, h, |_, _| true, |_| false),
+        Threshold::None | Threshold::Risk { .. } => classify(w, h, |_, _| true, |_| false),
         // A single option has no entropy to compare with and is clear when it is there at all.
         _ if w.len() == 1 => classify(w, h, |_, _| true, |_| false),
         Threshold::Entropy | Threshold::WhiteNoise => {

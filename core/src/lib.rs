@@ -44,6 +44,7 @@ pub mod feasibility;
 pub mod fuse;
 pub mod gesture;
 pub mod intent;
+pub mod joint;
 pub mod judgement;
 pub mod math;
 pub mod merge;

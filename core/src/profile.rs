@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::joint::calibration::RISKS;
 use crate::merge::Merge;
 use crate::sentence::{LANGUAGE, MODALITIES};
 
@@ -16,6 +17,9 @@ pub enum Model {
     M2,
     /// Merge, alpha and beta: unaligned features too.
     M3,
+    /// The posterior over whole intents: see [`crate::joint`]. Of the profile it takes the
+    /// threshold, the weights and whether it is guarded.
+    Joint,
 }
 
 /// What makes an option clear.
@@ -34,9 +38,19 @@ pub enum Threshold {
         /// Above this it is unclear, below it noise; the paper's t_U is 0.11.
         unclear: f32,
     },
+    /// The confidence in the whole intent against a cut that keeps wrong executions rare; for the
+    /// joint model alone.
+    Risk {
+        /// The share of all commands that may be executed wrongly: at least the smallest of
+        /// [`crate::joint::calibration::RISKS`], which are those it is rounded down to.
+        rate: f32,
+    },
 }
 
 impl Threshold {
+    /// At most one command in a hundred executed wrongly.
+    pub const RISK: Self = Self::Risk { rate: 0.01 };
+
     /// The paper's fixed thresholds.
     pub const FIXED: Self = Self::Fixed {
         clear: 0.25,
@@ -147,6 +161,13 @@ impl Profile {
         reference_quirks: false,
     };
 
+    /// The joint model at a risk of 1 %.
+    pub const JOINT: Self = Self {
+        model: Model::Joint,
+        threshold: Threshold::RISK,
+        ..Self::PAPER
+    };
+
     /// The paper's Baseline: the maximum over modalities, no penalties, no thresholds.
     pub const BASELINE: Self = Self {
         model: Model::Baseline,
@@ -246,7 +267,19 @@ impl Profile {
         if !(positive(self.least_h) && self.least_h >= LEAST_H) {
             return Err(ProfileError::LeastH);
         }
+        let whole = self.model == Model::Joint;
         match self.threshold {
+            Threshold::Risk { .. } if !whole => Err(ProfileError::ModelAndThreshold),
+            Threshold::Entropy | Threshold::WhiteNoise | Threshold::Fixed { .. } if whole => {
+                Err(ProfileError::ModelAndThreshold)
+            }
+            Threshold::Risk { rate }
+                if !RISKS
+                    .first()
+                    .is_some_and(|least| (*least..1.0).contains(&rate)) =>
+            {
+                Err(ProfileError::Risk)
+            }
             Threshold::Fixed { clear, unclear }
                 if !(unclear >= 0.0 && clear >= unclear && clear.is_finite()) =>
             {
@@ -276,6 +309,10 @@ pub enum ProfileError {
     LeastH,
     /// Fixed thresholds must be finite, with clear >= unclear >= 0.
     FixedThresholds,
+    /// The risk threshold is for the joint model alone, which takes no other but none.
+    ModelAndThreshold,
+    /// The tolerated risk must be below 1, and no smaller than the smallest that there is a cut for.
+    Risk,
 }
 
 const _: () = assert!(

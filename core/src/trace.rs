@@ -1,6 +1,8 @@
 //! Why a decision came out as it did: every intermediate figure, kept for whoever asks.
 
 use crate::category::Category;
+use crate::joint::Evidence;
+use crate::joint::belief::Belief;
 use crate::judgement::Judgement;
 
 /// What one category's merged word says.
@@ -10,9 +12,10 @@ pub struct CategoryTrace<const N: usize> {
     pub present: f32,
     /// How many options it has; only so many places below are in use.
     pub options: u8,
-    /// w^M, the merged word; for actions after alpha and beta. All 0 when the word is absent.
+    /// w^M, the merged word; for actions after alpha and beta. All 0 when the word is absent. With
+    /// the joint model the marginal posterior, which has no `entropy`.
     pub merged: [f32; N],
-    /// The diagonal cross-entropy of `merged`.
+    /// The diagonal cross-entropy of `merged`; 0 with the joint model.
     pub h: [f32; N],
     /// The normalised entropy of `merged`.
     pub entropy: f32,
@@ -62,13 +65,19 @@ impl<const N: usize> CategoryTrace<N> {
 /// The intermediate figures of one decision; also its working memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace<const C: usize, const N: usize> {
-    categories: [CategoryTrace<N>; C],
+    pub(crate) categories: [CategoryTrace<N>; C],
     /// The merged action word before any penalty.
     pub heard: [f32; N],
     /// alpha of every action (eq. 7); 1 when the model has none.
     pub alpha: [f32; N],
     /// beta of every action (eq. 10); 1 when the model has none.
     pub beta: [f32; N],
+    /// What the joint model believed; nothing with the others. Its `alpha` is how likely the words'
+    /// presence is beside the best action's, its `beta` how well the best things fit, 0 for actions
+    /// that were not weighed.
+    pub belief: Belief,
+    /// What the joint model heard, to which more can be added.
+    pub evidence: Evidence<C, N>,
 }
 
 impl<const C: usize, const N: usize> Default for Trace<C, N> {
@@ -86,11 +95,14 @@ impl<const C: usize, const N: usize> Trace<C, N> {
             heard: [0.0; N],
             alpha: [0.0; N],
             beta: [0.0; N],
+            belief: Belief::NONE,
+            evidence: Evidence::new(),
         }
     }
 
     /// Forgets the last decision. Only what it wrote is written again, less than half of the whole.
     pub fn clear(&mut self) {
+        self.belief = Belief::NONE;
         let actions = self
             .categories
             .first()

@@ -36,6 +36,7 @@ fn main() -> ! {
                 },
             );
         }
+        measure("joint", &Profile::JOINT);
         debug::exit(debug::EXIT_SUCCESS);
     }
     loop {

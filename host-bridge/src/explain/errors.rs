@@ -162,5 +162,13 @@ pub fn profile_error(error: &ProfileError) -> Advice {
             "the fixed thresholds are not in order",
             "clear must be at least unclear, and unclear at least 0; the paper's are 0.25 and 0.11",
         ),
+        ProfileError::ModelAndThreshold => Advice::new(
+            "the model and the threshold do not go together",
+            "the risk threshold is for the joint model, which takes no other but none",
+        ),
+        ProfileError::Risk => Advice::new(
+            "no cut is known for so small a risk",
+            "tolerate at least 0.003, and less than 1; `deictic-eval calibrate` makes the cuts",
+        ),
     }
 }

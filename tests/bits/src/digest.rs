@@ -53,6 +53,9 @@ impl Digest {
         self.floats(&trace.heard);
         self.floats(&trace.alpha);
         self.floats(&trace.beta);
+        self.float(trace.belief.posterior);
+        self.float(trace.belief.noise);
+        self.float(trace.belief.logit());
     }
 
     /// All of a decision.

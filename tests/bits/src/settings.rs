@@ -7,6 +7,9 @@ use deictic_core::profile::{
 
 /// Merge, threshold and family go round with the sample's number: 3 * 4 * 3 combinations.
 pub fn profile(i: u32, model: Model) -> Profile {
+    if model == Model::Joint {
+        return joint(i);
+    }
     let merge = match i % 3 {
         0 => Merge::Max,
         1 => Merge::Mul,
@@ -39,6 +42,18 @@ pub fn profile(i: u32, model: Model) -> Profile {
         },
         _ => reference(model, merge, threshold),
     }
+}
+
+/// The joint model, every other time without a threshold and every third with uneven weights.
+fn joint(i: u32) -> Profile {
+    let mut profile = Profile::JOINT;
+    if i % 2 == 1 {
+        profile.threshold = Threshold::None;
+    }
+    if i % 3 == 2 {
+        profile.weights = [0.8, 0.99, 0.5, 1.0];
+    }
+    profile
 }
 
 fn reference(model: Model, merge: Merge, threshold: Threshold) -> Profile {

@@ -3,14 +3,14 @@
 use deictic_core::board;
 use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
-use deictic_core::fuse::fuse;
 use deictic_core::intent::Intent;
-use deictic_core::profile::Profile;
+use deictic_core::profile::{Model, Profile};
 
 use crate::catalogue::Catalogue;
 use crate::order::Order;
 use crate::reading::choice;
 use crate::record::{CATEGORIES, Triple};
+use crate::sensing::Sensing;
 use crate::situation::Prepared;
 use crate::variant::ProfileName;
 
@@ -35,6 +35,8 @@ pub struct Judge<'a> {
     pub order: &'a Order,
     /// The catalogue in that order.
     pub vocabulary: &'a board::Vocabulary,
+    /// How easily its options are mistaken, for the joint model.
+    pub sensing: &'a Sensing,
     /// Whose habits the answer is read with: the paper's outcome is one intent or a question, the
     /// reference settles every category on its own.
     pub habits: ProfileName,
@@ -51,8 +53,15 @@ impl Judge<'_> {
         profile: &Profile,
         trace: &mut board::Trace,
     ) -> Result<Answer, deictic_core::profile::ProfileError> {
-        let decision = fuse(prepared.with(self.vocabulary), profile, trace)?;
-        Ok(match self.habits {
+        let decision = self
+            .sensing
+            .decide(prepared, self.vocabulary, profile, trace)?;
+        let habits = if profile.model == Model::Joint {
+            ProfileName::Paper
+        } else {
+            self.habits
+        };
+        Ok(match habits {
             ProfileName::Paper => {
                 let executed = match &decision.outcome {
                     Outcome::Execute(intent) => Some(self.triple(intent)),

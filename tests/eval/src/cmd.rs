@@ -1,10 +1,12 @@
 //! One file per subcommand.
 
 mod bound;
+mod calibrate;
 mod generate;
 mod gestures;
 mod paper;
 mod parity;
+mod reliability;
 mod score;
 mod sentences;
 mod speed;
@@ -15,10 +17,12 @@ use clap::Subcommand;
 #[derive(Subcommand)]
 pub enum Command {
     Bound(bound::Bound),
+    Calibrate(calibrate::Calibrate),
     Generate(generate::Generate),
     Gestures(gestures::Gestures),
     Paper(paper::Paper),
     Parity(parity::Parity),
+    Reliability(reliability::Reliability),
     Score(score::Score),
     Sentences(sentences::Sentences),
     Speed(speed::Speed),
@@ -29,10 +33,12 @@ impl Command {
     pub fn run(self) -> anyhow::Result<()> {
         match self {
             Self::Bound(command) => command.run(),
+            Self::Calibrate(command) => command.run(),
             Self::Generate(command) => command.run(),
             Self::Gestures(command) => command.run(),
             Self::Paper(command) => command.run(),
             Self::Parity(command) => command.run(),
+            Self::Reliability(command) => command.run(),
             Self::Score(command) => command.run(),
             Self::Sentences(command) => command.run(),
             Self::Speed(command) => command.run(),

@@ -10,8 +10,10 @@
 
 pub mod answer;
 pub mod bound;
+pub mod calibration;
 pub mod catalogue;
 pub mod dataset;
+pub mod density;
 pub mod free;
 pub mod generate;
 pub mod gestures;
@@ -26,6 +28,7 @@ pub mod reading;
 pub mod recipe;
 pub mod record;
 pub mod score;
+pub mod sensing;
 pub mod setups;
 pub mod situation;
 pub mod speed;

@@ -1,15 +1,18 @@
 //! How often a variant is right, wrong or undecided on a data set.
 
 use deictic_core::board;
+use deictic_core::profile::Profile;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::answer::{Answer, Judge};
+use crate::calibration::Believed;
 use crate::catalogue::Catalogue;
 use crate::dataset::Set;
 use crate::interval::wilson;
 use crate::order::Order;
 use crate::record::Triple;
+use crate::sensing::Sensing;
 use crate::situation::{FeatureForm, Prepared};
 use crate::variant::{ProfileName, Variant};
 
@@ -18,6 +21,7 @@ pub struct Field<'a> {
     catalogue: &'a Catalogue,
     order: Order,
     vocabulary: board::Vocabulary,
+    sensing: Sensing,
     /// The set's name.
     pub name: String,
     samples: Vec<(Prepared, Triple)>,
@@ -98,6 +102,7 @@ impl<'a> Field<'a> {
         }
         .unwrap_or_else(|| Order::own(catalogue));
         let vocabulary = catalogue.vocabulary(&order);
+        let sensing = Sensing::new(catalogue, &order)?;
         let samples = set
             .records
             .iter()
@@ -112,6 +117,7 @@ impl<'a> Field<'a> {
             catalogue,
             order,
             vocabulary,
+            sensing,
             name: set.name.clone(),
             samples,
             habits,
@@ -128,12 +134,7 @@ impl<'a> Field<'a> {
     pub fn tally(&self, variant: &Variant) -> anyhow::Result<Tally> {
         assert_eq!(variant.profile, self.habits, "made for another profile");
         let settings = variant.settings();
-        let judge = Judge {
-            catalogue: self.catalogue,
-            order: &self.order,
-            vocabulary: &self.vocabulary,
-            habits: self.habits,
-        };
+        let judge = self.judge();
         self.samples
             .par_chunks(64)
             .map(|chunk| {
@@ -148,6 +149,45 @@ impl<'a> Field<'a> {
                 Ok(tally)
             })
             .try_reduce(Tally::default, |a, b| Ok(a.plus(b)))
+    }
+}
+
+impl Field<'_> {
+    /// What the joint model believes of every sample, and whether it is right, on all cores.
+    ///
+    /// # Errors
+    /// The core's.
+    pub fn beliefs(&self) -> anyhow::Result<Vec<Believed>> {
+        let judge = self.judge();
+        let chunks: Vec<Vec<Believed>> = self
+            .samples
+            .par_chunks(64)
+            .map(|chunk| {
+                let mut trace = board::Trace::new();
+                let believe = |(prepared, truth): &(Prepared, Triple)| {
+                    let answer = judge
+                        .answer(prepared, &Profile::JOINT, &mut trace)
+                        .map_err(|e| anyhow::anyhow!("{}: the core refuses: {e:?}", self.name))?;
+                    Ok(Believed {
+                        belief: trace.belief,
+                        right: answer.likeliest == Some(*truth),
+                        executed: answer.executed.is_some(),
+                    })
+                };
+                chunk.iter().map(believe).collect::<anyhow::Result<_>>()
+            })
+            .collect::<anyhow::Result<_>>()?;
+        Ok(chunks.concat())
+    }
+
+    fn judge(&self) -> Judge<'_> {
+        Judge {
+            catalogue: self.catalogue,
+            order: &self.order,
+            vocabulary: &self.vocabulary,
+            sensing: &self.sensing,
+            habits: self.habits,
+        }
     }
 }
 

@@ -12,11 +12,13 @@ use crate::dataset::Set;
 use crate::order::Order;
 use crate::reading::choice;
 use crate::record::CATEGORIES;
+use crate::sensing::Sensing;
 use crate::situation::{FeatureForm, Prepared};
 
 /// Samples ready to be decided, translated once.
 pub struct Track {
     vocabulary: board::Vocabulary,
+    sensing: Sensing,
     order: Order,
     samples: Vec<Prepared>,
 }
@@ -29,6 +31,7 @@ impl Track {
     pub fn new(set: &Set, catalogue: &Catalogue) -> anyhow::Result<Self> {
         let order = Order::own(catalogue);
         let vocabulary = catalogue.vocabulary(&order);
+        let sensing = Sensing::new(catalogue, &order)?;
         let samples = set
             .records
             .iter()
@@ -36,6 +39,7 @@ impl Track {
             .collect::<anyhow::Result<_>>()?;
         Ok(Self {
             vocabulary,
+            sensing,
             order,
             samples,
         })
@@ -54,7 +58,9 @@ impl Track {
         let mut trace = board::Trace::new();
         let started = ThreadTime::now();
         for sample in &self.samples {
-            let decision = fuse(sample.with(&self.vocabulary), profile, &mut trace);
+            let decision = self
+                .sensing
+                .decide(sample, &self.vocabulary, profile, &mut trace);
             let _ = black_box(&decision);
         }
         started.elapsed().as_secs_f64()

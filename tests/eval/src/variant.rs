@@ -18,6 +18,8 @@ pub enum ModelName {
     M2,
     /// Merge, signatures and features: the paper's full model.
     M3,
+    /// The posterior over whole intents.
+    Joint,
 }
 
 /// How modalities are mixed.
@@ -42,6 +44,8 @@ pub enum ThresholdName {
     WhiteNoise,
     /// Two fixed numbers.
     Fixed,
+    /// A cut that holds wrong executions to 1 %; for the joint model alone, and its usual one.
+    Risk,
 }
 
 /// Whose habits the core follows.
@@ -84,7 +88,8 @@ pub struct Variant {
 
 impl Variant {
     /// A variant; what is not given is as the paper has it: maximum without thresholds for the
-    /// Baseline, sum with entropy thresholds for the others.
+    /// Baseline, sum with entropy thresholds for the others. The joint model multiplies whatever is
+    /// given, and has no habits of the reference.
     #[must_use]
     pub fn new(
         model: ModelName,
@@ -94,6 +99,7 @@ impl Variant {
     ) -> Self {
         let (usual_merge, usual_threshold) = match model {
             ModelName::Baseline => (MergeName::Max, ThresholdName::None),
+            ModelName::Joint => (MergeName::Mul, ThresholdName::Risk),
             _ => (MergeName::Add, ThresholdName::Entropy),
         };
         Self {
@@ -112,6 +118,7 @@ impl Variant {
             ModelName::M1 => Model::M1,
             ModelName::M2 => Model::M2,
             ModelName::M3 => Model::M3,
+            ModelName::Joint => Model::Joint,
         };
         let merge = match self.merge {
             MergeName::Max => Merge::Max,
@@ -119,6 +126,7 @@ impl Variant {
             MergeName::Add => Merge::Add,
         };
         let settings = match (self.profile, self.threshold) {
+            (_, ThresholdName::Risk) => Profile::JOINT,
             (ProfileName::Paper, ThresholdName::None) => Profile::BASELINE,
             (ProfileName::Paper, ThresholdName::Entropy) => Profile::PAPER,
             (ProfileName::Paper, ThresholdName::WhiteNoise) => Profile {

@@ -37,6 +37,7 @@ struct Figures {
     m1_per_second: f64,
     m2_per_second: f64,
     m3_per_second: f64,
+    joint_per_second: f64,
     /// M3 with the reference's habits, which is what numpy computes.
     m3_reference_per_second: f64,
     numpy_per_second: Option<f64>,
@@ -72,6 +73,7 @@ impl Speed {
             m1_per_second: paper(ModelName::M1),
             m2_per_second: paper(ModelName::M2),
             m3_per_second: paper(ModelName::M3),
+            joint_per_second: paper(ModelName::Joint),
             m3_reference_per_second: rate(ModelName::M3, ProfileName::Reference),
             numpy_per_second: None,
             ratio: None,
@@ -107,6 +109,7 @@ impl Speed {
             ("m1", Some(figures.m1_per_second)),
             ("m2", Some(figures.m2_per_second)),
             ("m3", Some(figures.m3_per_second)),
+            ("joint", Some(figures.joint_per_second)),
             ("m3, reference", Some(figures.m3_reference_per_second)),
             ("numpy", figures.numpy_per_second),
         ] {

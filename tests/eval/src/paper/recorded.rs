@@ -92,6 +92,7 @@ impl Recorded {
             ModelName::M1 => "M1",
             ModelName::M2 => "M2",
             ModelName::M3 => "M3",
+            ModelName::Joint => return None,
         };
         let merge = match (variant.merge, variant.threshold) {
             (MergeName::Mul, ThresholdName::Fixed) => "mul",

@@ -1,0 +1,123 @@
+//! How far a posterior can be trusted: a confidence that means what it says, and the cut that keeps
+//! wrong executions rare.
+//!
+//! The confidence is the posterior's logit, scaled and shifted by the noise that was heard (Platt's
+//! scaling, linear between the levels). It is never told the noise. `calibration` holds the
+//! figures: fitted to generated samples, the cut by learn-then-test (Angelopoulos et al. 2021),
+//! whose program and assumptions are in `deictic-eval calibrate`.
+
+use super::calibration::{CUTS, OFFSET, RISKS, SLOPE};
+use super::{LEVELS, Levels};
+use crate::math::{self, clamp_unit, larger};
+
+/// No logit counts beyond this: what a posterior of 0.99988 has, and about what thousands of
+/// samples can tell.
+const FARTHEST: f32 = 9.0;
+
+/// What the joint model believes of its best intent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Belief {
+    /// The best intent's posterior, 0..=1.
+    pub posterior: f32,
+    /// The noise that was heard, as the mean level of all branches: 0 (as measured on real gestures)
+    /// to 3 (standard deviation 0.6).
+    pub noise: f32,
+}
+
+impl Belief {
+    /// Nothing believed.
+    pub const NONE: Self = Self {
+        posterior: 0.0,
+        noise: 0.0,
+    };
+
+    /// Logit of the confidence.
+    #[must_use]
+    pub fn logit(&self) -> f32 {
+        let logit = logit(self.posterior);
+        between(&SLOPE, self.noise) * logit + between(&OFFSET, self.noise)
+    }
+
+    /// The probability that the best intent is what was meant, on the samples it was fitted to.
+    #[must_use]
+    pub fn confidence(&self) -> f32 {
+        1.0 / (1.0 + math::exp(-self.logit()))
+    }
+
+    /// The logit from which on the intent is executed when this share of all commands may be executed
+    /// wrongly: that of the largest risk in [`RISKS`] that is no larger, out of reach when there is
+    /// none.
+    #[must_use]
+    pub fn cut(&self, risk: f32) -> f32 {
+        let mut cut = f32::INFINITY;
+        for (known, knots) in RISKS.iter().zip(&CUTS) {
+            if *known <= risk {
+                cut = between(knots, self.noise);
+            }
+        }
+        cut
+    }
+
+    /// Whether the confidence suffices for a risk.
+    #[must_use]
+    pub fn suffices(&self, risk: f32) -> bool {
+        self.logit() >= self.cut(risk)
+    }
+}
+
+/// ln(p / (1 - p)), at most 9 from 0.
+#[must_use]
+pub fn logit(p: f32) -> f32 {
+    let p = clamp_unit(p);
+    let ln = |x: f32| math::ln(larger(x, 1e-9));
+    (ln(p) - ln(1.0 - p)).clamp(-FARTHEST, FARTHEST)
+}
+
+/// How much each level's figure counts at a noise between them: 1 in all.
+#[must_use]
+pub fn shares(noise: f32) -> Levels {
+    let mut shares = [0.0; LEVELS];
+    let mut knot = 0.0;
+    for share in &mut shares {
+        *share = larger(0.0, 1.0 - (noise - knot).abs());
+        knot += 1.0;
+    }
+    shares
+}
+
+fn between(knots: &Levels, noise: f32) -> f32 {
+    let mut sum = 0.0;
+    for (knot, share) in knots.iter().zip(shares(noise)) {
+        sum += knot * share;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_linear_between_the_levels() {
+        assert_eq!(shares(0.0), [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(shares(2.25), [0.0, 0.0, 0.75, 0.25]);
+        assert_eq!(shares(3.0), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(between(&[1.0, 2.0, 4.0, 8.0], 1.5), 3.0);
+    }
+
+    #[test]
+    fn logits_are_bounded_and_total() {
+        assert_eq!(logit(1.0), 9.0);
+        assert_eq!(logit(0.0), -9.0);
+        assert_eq!(logit(0.5), 0.0);
+        assert_eq!(logit(f32::NAN), -9.0);
+    }
+
+    #[test]
+    fn more_posterior_is_more_confidence() {
+        for noise in [0.0, 0.7, 1.0, 2.5, 3.0] {
+            let of = |posterior| Belief { posterior, noise }.confidence();
+            assert!(of(0.3) < of(0.6) && of(0.6) < of(0.99), "noise {noise}");
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Evidence as costs: how improbable something is at each noise level, in 32nds of a power of two.
+//!
+//! Whole numbers make the board's bits the host's, and four levels in two words make one table
+//! look-up and two additions serve all of them.
+
+/// Costs per factor of two.
+pub const OCTAVE: u16 = 32;
+
+/// What a single cost can be at most, for [`Costs::least`] to tell which is smaller.
+pub const MOST: u16 = 0x7fff;
+
+/// The first bit of every lane.
+const TOP: u32 = 0x8000_8000;
+
+/// One cost per noise level, 16 bits each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Costs([u32; 2]);
+
+impl Costs {
+    /// Certain at every level.
+    pub const ZERO: Self = Self([0, 0]);
+
+    /// The same at every level.
+    #[must_use]
+    pub const fn all(cost: u16) -> Self {
+        Self::new([cost; 4])
+    }
+
+    /// These costs, from the lowest level on.
+    #[must_use]
+    pub const fn new([a, b, c, d]: [u16; 4]) -> Self {
+        Self([
+            (b as u32).wrapping_shl(16) | a as u32,
+            (d as u32).wrapping_shl(16) | c as u32,
+        ])
+    }
+
+    /// The costs, from the lowest level on.
+    #[must_use]
+    #[inline(always)]
+    pub const fn lanes(self) -> [u16; 4] {
+        let Self([ab, cd]) = self;
+        [
+            ab as u16,
+            ab.wrapping_shr(16) as u16,
+            cd as u16,
+            cd.wrapping_shr(16) as u16,
+        ]
+    }
+
+    /// The cost at a level, of which only the lowest two bits count.
+    #[must_use]
+    #[inline(always)]
+    pub const fn at(self, level: usize) -> u32 {
+        let Self([ab, cd]) = self;
+        let pair = if level & 2 == 0 { ab } else { cd };
+        pair.wrapping_shr((level as u32 & 1).wrapping_shl(4)) & 0xffff
+    }
+
+    /// Both together. Sums must stay below 2^16.
+    #[must_use]
+    #[inline(always)]
+    pub const fn plus(self, other: Self) -> Self {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        Self([a.wrapping_add(c), b.wrapping_add(d)])
+    }
+
+    /// What is left of these costs without `other`, none of which may be larger.
+    #[must_use]
+    #[inline(always)]
+    pub const fn minus(self, other: Self) -> Self {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        Self([a.wrapping_sub(c), b.wrapping_sub(d)])
+    }
+
+    /// The smaller at every level, of costs up to [`MOST`].
+    #[must_use]
+    #[inline(always)]
+    pub const fn least(self, other: Self) -> Self {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        Self([least(a, c), least(b, d)])
+    }
+
+    /// `weight` 256ths of it, no more than [`MOST`].
+    #[must_use]
+    pub fn weighed(self, weight: u32) -> Self {
+        Self::new(self.lanes().map(|cost| {
+            let cost = u32::from(cost).saturating_mul(weight).wrapping_shr(8);
+            cost.min(u32::from(MOST)) as u16
+        }))
+    }
+
+    /// The smallest of all.
+    #[must_use]
+    pub fn lowest(self) -> u16 {
+        let [a, b, c, d] = self.lanes();
+        a.min(b).min(c).min(d)
+    }
+}
+
+/// The smaller of each pair of lanes: what `a` has more than `b`, told by a guard bit, is taken away.
+#[inline(always)]
+const fn least(a: u32, b: u32) -> u32 {
+    let difference = (a | TOP).wrapping_sub(b);
+    let larger = difference & TOP;
+    a.wrapping_sub(difference & larger.wrapping_sub(larger.wrapping_shr(15)))
+}
+
+/// 2 to the power of -`cost` / 32, exact to 24 bits; 0 below 2^-100, which counts nowhere.
+#[must_use]
+#[inline(always)]
+pub fn weight(cost: u32) -> f32 {
+    let octaves = cost.wrapping_shr(5);
+    if octaves > 100 {
+        return 0.0;
+    }
+    let part = super::tables::POWERS.get((cost & 31) as usize);
+    let bits = part.copied().unwrap_or(0);
+    f32::from_bits(bits.wrapping_sub(octaves.wrapping_shl(23)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_do_not_disturb_each_other() {
+        let cases = [[0, MOST, 3, 9], [MOST, 0, 9, 3], [5, 5, MOST, MOST]];
+        for a in cases {
+            for b in cases {
+                let (x, y) = (Costs::new(a), Costs::new(b));
+                let expect = |f: fn(u16, u16) -> u16| core::array::from_fn(|i| f(a[i], b[i]));
+                assert_eq!(x.least(y).lanes(), expect(u16::min));
+                assert_eq!(x.plus(y).lanes(), expect(|a, b| a + b));
+                assert_eq!(x.plus(y).minus(y), x);
+                for (level, &cost) in a.iter().enumerate() {
+                    assert_eq!(x.at(level), u32::from(cost));
+                }
+            }
+        }
+        let costs = Costs::new([0, 100, MOST, 7]);
+        assert_eq!(costs.weighed(512).lanes(), [0, 200, MOST, 14]);
+        assert_eq!(costs.weighed(128).lanes(), [0, 50, MOST / 2, 3]);
+        assert_eq!(Costs::new([9, 4, 5, 6]).lowest(), 4);
+    }
+
+    #[test]
+    fn weights_are_powers_of_two() {
+        assert_eq!(weight(0), 1.0);
+        assert_eq!(weight(32), 0.5);
+        assert_eq!(weight(320), 1.0 / 1024.0);
+        assert_eq!(weight(32 * 101), 0.0);
+        for cost in 0..500 {
+            let exact = (-f64::from(cost) / 32.0).exp2();
+            assert!(
+                (f64::from(weight(cost)) / exact - 1.0).abs() < 1e-7,
+                "{cost}"
+            );
+        }
+    }
+}

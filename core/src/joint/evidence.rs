@@ -1,0 +1,322 @@
+//! What was heard and what can be done, kept until the next decision, so that further words can be
+//! added to it.
+
+use heapless::Vec;
+
+use super::cost::{Costs, MOST, weight};
+use super::fit::{self, Survey};
+use super::posterior::{Found, Marginal, Options, Posterior};
+use super::sensors::Tables;
+use super::word::{self, DEAREST, Element, Reading, Room};
+use super::{LEVELS, Levels};
+use crate::category::{Category, CategorySet};
+use crate::scene::Entity;
+use crate::sentence::Word;
+use crate::trace::CategoryTrace;
+use crate::vocabulary::{Action, Vocabulary};
+
+/// Words of a category that can be added before costs are cut off: [`MOST`] / [`DEAREST`].
+const MANY: u8 = 7;
+
+/// What the words' presence can cost an action at most: with seven words it stays below [`MOST`].
+const DEAREST_PRIOR: u16 = DEAREST;
+
+/// The factors of a posterior: `C` categories, `N` options at most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evidence<const C: usize, const N: usize> {
+    /// What every option costs, by category; of actions those that are live.
+    words: [[Costs; N]; C],
+    /// What the actions cost should those of other signatures be raised.
+    raised: [Costs; N],
+    /// What its own element costs every action, object and storage.
+    named: [[Costs; N]; 3],
+    /// How many words of every category there were.
+    count: [u8; C],
+    /// The options that are weighed, of actions, objects and storages.
+    live: [Vec<u8, N>; 3],
+    /// What the words' presence costs every action.
+    prior: [u16; N],
+    /// How well every object and every storage fits every action, in 255ths.
+    fits: [[[u8; N]; 2]; N],
+    /// The categories that some word speaks of.
+    spoken: CategorySet,
+    work: Work<N>,
+}
+
+/// Room to work in, which no stack has to give.
+#[derive(Clone, Debug, PartialEq)]
+struct Work<const N: usize> {
+    elements: [Element; N],
+    sums: [Costs; N],
+    raised: [Costs; N],
+    flags: [[bool; N]; 3],
+}
+
+impl<const C: usize, const N: usize> Default for Evidence<C, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const C: usize, const N: usize> Evidence<C, N> {
+    /// Of nothing heard.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            words: [[Costs::ZERO; N]; C],
+            raised: [Costs::ZERO; N],
+            named: [[Costs::ZERO; N]; 3],
+            count: [0; C],
+            live: [const { Vec::new() }; 3],
+            prior: [0; N],
+            fits: [[[0; N]; 2]; N],
+            spoken: CategorySet::EMPTY,
+            work: Work {
+                elements: [Element::NONE; N],
+                sums: [Costs::ZERO; N],
+                raised: [Costs::ZERO; N],
+                flags: [[false; N]; 3],
+            },
+        }
+    }
+
+    /// Forgets what was heard, of categories with so many options.
+    pub(super) fn restart(&mut self, options: &[u8]) {
+        self.spoken = CategorySet::EMPTY;
+        let words = self.words.iter_mut().zip(&mut self.count);
+        for ((words, count), &n) in words.zip(options) {
+            *count = 0;
+            clear(words, n);
+        }
+        let actions = options.first().copied().unwrap_or(0);
+        clear(&mut self.raised, actions);
+        for (named, &n) in self.named.iter_mut().zip(options) {
+            clear(named, n);
+        }
+        let used = self.prior.iter_mut().take(usize::from(actions));
+        used.for_each(|prior| *prior = 0);
+    }
+
+    /// Notes with which probability one modality spoke of each category, and whether it did at all.
+    pub(super) fn note(&mut self, actions: &[Action], present: &[f32], spoken: CategorySet) {
+        self.spoken = self.spoken.union(spoken);
+        for (q, &p) in present.iter().enumerate().skip(1) {
+            fit::presence(q, p, actions, &mut self.prior);
+        }
+    }
+
+    /// Finds what the scene allows, given which categories were spoken of; leaves in the trace's
+    /// figures what the presence of words and the things make of every action.
+    pub(super) fn survey<const F: usize>(
+        &mut self,
+        vocabulary: &Vocabulary<N, C, F>,
+        things: &[Entity<F>],
+        alpha: &mut [f32; N],
+        beta: &mut [f32; N],
+    ) {
+        let mut counts = vocabulary.options().iter().map(|&n| usize::from(n));
+        let flags = self.work.flags.each_mut().map(|flags| {
+            let n = counts.next().unwrap_or(0);
+            flags.get_mut(..n).unwrap_or_default()
+        });
+        let [live, objects, storages] = flags;
+        Survey {
+            actions: vocabulary.actions(),
+            things,
+            spoken: self.spoken,
+            prior: &mut self.prior,
+            fits: self.fits.as_flattened_mut().as_flattened_mut(),
+            stride: N,
+            possible: beta,
+            live: &mut *live,
+            usable: [&mut *objects, &mut *storages],
+        }
+        .run();
+        for (list, flags) in self.live.iter_mut().zip([live, objects, storages]) {
+            list.clear();
+            for (option, _) in (0_u8..).zip(flags).filter(|(_, flag)| **flag) {
+                // There are no more options than places.
+                let _ = list.push(option);
+            }
+        }
+        let used = vocabulary.actions().len();
+        for (alpha, prior) in alpha.iter_mut().zip(&mut self.prior).take(used) {
+            *prior = (*prior).min(DEAREST_PRIOR);
+            *alpha = weight(u32::from(*prior));
+        }
+    }
+
+    /// Adds a word of `category`, which a modality of this weight reported.
+    pub fn hear<const F: usize>(
+        &mut self,
+        vocabulary: &Vocabulary<N, C, F>,
+        sensors: Tables<'_>,
+        modality: u8,
+        category: Category,
+        said: &Word<C, N>,
+        weight: f32,
+    ) {
+        let q = category.index();
+        let likelihoods = said.likelihoods();
+        let n = likelihoods.len();
+        let p = said.categories().get(q).copied().unwrap_or(0.0);
+        let (Some(words), Some(count)) = (self.words.get_mut(q), self.count.get_mut(q)) else {
+            return;
+        };
+        self.spoken = self.spoken.with(q);
+        let Work {
+            elements,
+            sums,
+            raised,
+            ..
+        } = &mut self.work;
+        let mut all = Vec::<u8, N>::new();
+        let live = self.live.get(q).unwrap_or_else(|| {
+            for option in (0_u8..).take(n) {
+                // There are no more options than places.
+                let _ = all.push(option);
+            }
+            &all
+        });
+        let mut nobody = [];
+        let named = self.named.get_mut(q).map_or(&mut nobody[..], |named| named);
+        if *count >= MANY {
+            for costs in words.iter_mut().chain(&mut *named).chain(&mut self.raised) {
+                *costs = costs.least(Costs::all(MOST.wrapping_sub(DEAREST)));
+            }
+        }
+        *count = count.saturating_add(1);
+        let reading = Reading {
+            likelihoods,
+            rows: sensors.rows(modality, category, n),
+            live,
+            weight: word::in_256ths(weight * p),
+        };
+        let mut room = Room {
+            elements: elements.get_mut(..n).unwrap_or_default(),
+            sums,
+            raised,
+            named,
+        };
+        if category == Category::ACTION {
+            word::action(
+                &reading,
+                vocabulary.actions(),
+                &mut room,
+                words,
+                &mut self.raised,
+            );
+        } else {
+            word::parameter(&reading, &mut room, words);
+        }
+    }
+
+    /// What its own elements cost each option of an action, object or storage; empty otherwise.
+    pub(super) fn named(&self, category: Category) -> &[Costs] {
+        self.named.get(category.index()).map_or(&[], |named| named)
+    }
+
+    /// The best intent; its marginals go to the merged words.
+    pub(crate) fn solve<const F: usize>(
+        &mut self,
+        vocabulary: &Vocabulary<N, C, F>,
+        categories: &mut [CategoryTrace<N>; C],
+    ) -> Option<Found> {
+        let [actions, objects, storages, others @ ..] = &self.words[..] else {
+            return None;
+        };
+        let [live_actions, live_objects, live_storages] = &self.live;
+        let mut rest = [0; LEVELS];
+        let counts = vocabulary.options().iter().skip(3);
+        let spoken = others.iter().zip(counts).zip(3_usize..);
+        for ((costs, &n), _) in spoken.filter(|(_, q)| self.spoken.contains(*q)) {
+            let mut least = Costs::all(MOST);
+            for costs in costs.iter().take(usize::from(n)) {
+                least = least.least(*costs);
+            }
+            for (rest, least) in rest.iter_mut().zip(least.lanes()) {
+                *rest = u32::from(least).saturating_add(*rest);
+            }
+        }
+        for &a in live_actions {
+            let a = usize::from(a);
+            let heard = actions
+                .get(a)
+                .zip(self.raised.get(a))
+                .zip(self.prior.get(a));
+            if let (Some(sum), Some(((plain, raised), prior))) = (self.work.sums.get_mut(a), heard)
+            {
+                *sum = plain.least(*raised).plus(Costs::all(*prior));
+            }
+        }
+        let posterior = Posterior {
+            actions: vocabulary.actions(),
+            spoken: self.spoken,
+            deeds: Options {
+                live: live_actions,
+                costs: &self.work.sums,
+            },
+            things: [
+                Options {
+                    live: live_objects,
+                    costs: objects,
+                },
+                Options {
+                    live: live_storages,
+                    costs: storages,
+                },
+            ],
+            fits: self.fits.as_flattened().as_flattened(),
+            stride: N,
+            rest,
+        };
+        let [action, object, storage, traces @ ..] = &mut categories[..] else {
+            return None;
+        };
+        let mut marginals = [marginal(action), marginal(object), marginal(storage)];
+        let found = posterior.solve(&mut marginals)?;
+        for ((costs, trace), q) in others.iter().zip(traces).zip(3_usize..) {
+            if trace.options > 0 {
+                independent(
+                    costs,
+                    self.spoken.contains(q),
+                    &found.shares,
+                    marginal(trace),
+                );
+            }
+        }
+        Some(found)
+    }
+}
+
+#[inline(never)]
+fn clear(costs: &mut [Costs], n: u8) {
+    let used = costs.iter_mut().take(usize::from(n));
+    used.for_each(|costs| *costs = Costs::ZERO);
+}
+
+fn marginal<const N: usize>(word: &mut CategoryTrace<N>) -> Marginal<'_> {
+    let (of, weights) = word.merged_and_h();
+    Marginal { of, weights }
+}
+
+/// The marginal of a category whose options are not things, so that every action likes all alike.
+#[inline(never)]
+fn independent(costs: &[Costs], spoken: bool, shares: &Levels, marginal: Marginal<'_>) {
+    marginal.of.fill(0.0);
+    if !spoken {
+        return;
+    }
+    for (b, share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+        let options = costs.iter().take(marginal.of.len());
+        let least = options.map(|costs| costs.at(b)).min().unwrap_or(0);
+        let mut total = 0.0;
+        for (to, costs) in marginal.weights.iter_mut().zip(costs) {
+            *to = weight(costs.at(b).saturating_sub(least));
+            total += *to;
+        }
+        for (p, weight) in marginal.of.iter_mut().zip(&*marginal.weights) {
+            *p += share * weight / total;
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! From what is believed to what is done: execute when the confidence passes its cut, else ask about
+//! the category that is least certain.
+
+use heapless::Vec;
+
+use super::cost::OCTAVE;
+use super::fit::product;
+use super::posterior::Found;
+use crate::category::Category;
+use crate::decide::{CANDIDATES, Decision, FEASIBLE, Outcome, Question, Reason, name};
+use crate::fuse::Situation;
+use crate::intent::{Intent, Parameter};
+use crate::judgement::{Judgement, bit};
+use crate::profile::{Profile, Threshold};
+use crate::trace::{CategoryTrace, Trace};
+
+/// An option is offered when its marginal is at least this.
+const OFFERED: f32 = 0.01;
+
+/// When no category's best option holds this much, nothing was understood.
+const LOST: f32 = 0.2;
+
+/// By how much an option that is not to be had may be clearer, at the noise that was heard, than the
+/// one that is: 90 to 1. Above it the person meant just that, and is told.
+const CLEARER: u32 = OCTAVE as u32 * 13 / 2;
+
+/// The outcome of a solved posterior; completes the trace.
+pub fn outcome<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
+    situation: Situation<'_, N, C, F, E, W>,
+    profile: &Profile,
+    found: Option<Found>,
+    trace: &mut Trace<C, N>,
+) -> Decision<C> {
+    let mut spoken = false;
+    let used = situation.vocabulary.options().len();
+    for word in trace.categories_mut().iter_mut().take(used) {
+        spoken |= word.present > 0.0;
+        settle(word, found.is_some());
+    }
+    if !spoken {
+        return undecided(Outcome::Repeat);
+    }
+    let action_spoken = present(trace, Category::ACTION);
+    let Some(found) = found else {
+        let reason = if action_spoken {
+            Reason::Infeasible
+        } else {
+            Reason::Missing
+        };
+        return undecided(ask(Category::ACTION, reason, trace));
+    };
+    trace.belief = found.belief;
+    if !action_spoken {
+        return undecided(ask(Category::ACTION, Reason::Missing, trace));
+    }
+    let mut best = Intent {
+        action: found.best.action,
+        parameters: Vec::new(),
+    };
+    let others = complete(situation, &found, trace, &mut best);
+    trace.belief.posterior *= others;
+    let outcome = match doubt(situation, profile, &found, &best, trace) {
+        Some((category, reason)) => ask(category, reason, trace),
+        None => {
+            let suffices = match profile.threshold {
+                Threshold::Risk { rate } => trace.belief.suffices(rate),
+                _ => true,
+            };
+            if suffices {
+                mark(&best, trace);
+                Outcome::Execute(best.clone())
+            } else {
+                clarify(&best, trace)
+            }
+        }
+    };
+    Decision {
+        outcome,
+        best: Some(best),
+    }
+}
+
+fn undecided<const C: usize>(outcome: Outcome<C>) -> Decision<C> {
+    Decision {
+        outcome,
+        best: None,
+    }
+}
+
+fn present<const N: usize, const C: usize>(trace: &Trace<C, N>, category: Category) -> bool {
+    trace
+        .category(category)
+        .is_some_and(|word| word.present > 0.0)
+}
+
+/// Adds an intent's parameters; gives how likely the options are that are not things.
+fn complete<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
+    situation: Situation<'_, N, C, F, E, W>,
+    found: &Found,
+    trace: &Trace<C, N>,
+    intent: &mut Intent<C>,
+) -> f32 {
+    let mut likelihood = 1.0;
+    let Some(action) = situation
+        .vocabulary
+        .actions()
+        .get(usize::from(intent.action))
+    else {
+        return likelihood;
+    };
+    let signature = action.signature;
+    let [object, storage] = found.best.things;
+    for q in signature.compulsory.union(signature.voluntary).iter() {
+        let (Some(category), Some(word)) = (Category::from_index(q), trace.categories().get(q))
+        else {
+            continue;
+        };
+        let option = match category {
+            Category::OBJECT => object,
+            Category::STORAGE => storage,
+            _ if word.present > 0.0 => {
+                let best = word.judgement.best;
+                let p = best.and_then(|o| word.merged().get(usize::from(o)).copied());
+                likelihood *= p.unwrap_or(1.0);
+                best
+            }
+            _ => None,
+        };
+        if let Some(option) = option {
+            // At most one parameter per category, and there are C categories.
+            let _ = intent.parameters.push(Parameter {
+                category,
+                option,
+                quantity: word.quantity,
+            });
+        }
+    }
+    likelihood
+}
+
+/// What speaks against an intent whatever its posterior: a parameter that nobody gave, a thing that
+/// does not fit well, and something else that is clearly meant but cannot be had.
+fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
+    situation: Situation<'_, N, C, F, E, W>,
+    profile: &Profile,
+    found: &Found,
+    best: &Intent<C>,
+    trace: &Trace<C, N>,
+) -> Option<(Category, Reason)> {
+    if !profile.guarded {
+        return None;
+    }
+    let actions = situation.vocabulary.actions();
+    let action = actions.get(usize::from(best.action))?;
+    for q in action.signature.compulsory.iter() {
+        let category = Category::from_index(q)?;
+        if !present(trace, category) {
+            return Some((category, Reason::Missing));
+        }
+    }
+    let clearest = |category: Category, chosen: u8| {
+        let named = trace.evidence.named(category);
+        let named = named.get(..trace.category(category)?.merged().len())?;
+        let at = |o: u8| named.get(usize::from(o)).map(|costs| costs.at(found.level));
+        let least = (0_u8..)
+            .zip(named)
+            .min_by_key(|(_, costs)| costs.at(found.level))?;
+        let clearer = at(chosen)?.saturating_sub(least.1.at(found.level)) > CLEARER;
+        clearer.then_some(least.0)
+    };
+    for parameter in best.parameters.iter().filter(|p| p.category.is_entity()) {
+        let category = parameter.category;
+        let fits = |option| {
+            let thing = situation.scene.find(category, option)?;
+            Some(product(action.requirement(category), &thing.features) >= FEASIBLE)
+        };
+        if fits(parameter.option) != Some(true) {
+            return Some((category, Reason::Infeasible));
+        }
+        if let Some(meant) = clearest(category, parameter.option) {
+            match fits(meant) {
+                None => return Some((category, Reason::NotInScene)),
+                Some(false) => return Some((category, Reason::Infeasible)),
+                Some(true) => {}
+            }
+        }
+    }
+    let meant = clearest(Category::ACTION, best.action)?;
+    let meant = actions.get(usize::from(meant))?;
+    for category in [Category::OBJECT, Category::STORAGE] {
+        let can = |thing: &crate::scene::Entity<F>| {
+            thing.category == category
+                && product(meant.requirement(category), &thing.features) >= FEASIBLE
+        };
+        let needed = meant.signature.compulsory.contains(category.index());
+        if needed && !situation.scene.entities().iter().any(can) {
+            return Some((Category::ACTION, Reason::Infeasible));
+        }
+    }
+    None
+}
+
+/// What leads in a marginal; nothing is clear yet.
+fn settle<const N: usize>(word: &mut CategoryTrace<N>, solved: bool) {
+    let (marginal, weights) = word.merged_and_h();
+    weights.fill(0.0);
+    if !solved {
+        marginal.fill(0.0);
+    }
+    let (mut first, mut second) = (0.0, 0.0);
+    let mut judgement = Judgement::NOTHING;
+    for (o, &p) in (0_u8..).zip(&*marginal) {
+        if p > first {
+            second = first;
+            first = p;
+            judgement.best = Some(o);
+        } else if p > second {
+            second = p;
+        }
+        if p >= OFFERED {
+            judgement.unclear |= bit(o);
+        }
+    }
+    judgement.lead = first - second;
+    word.judgement = judgement;
+    word.entropy = 0.0;
+    word.threshold = 0.0;
+}
+
+/// Notes in the trace that the options of an executed intent were clear.
+fn mark<const N: usize, const C: usize>(intent: &Intent<C>, trace: &mut Trace<C, N>) {
+    let mut clear = |category: Category, option| {
+        if let Some(word) = trace.categories_mut().get_mut(category.index()) {
+            word.judgement.clear = bit(option);
+            word.judgement.unclear &= !word.judgement.clear;
+        }
+    };
+    clear(Category::ACTION, intent.action);
+    for parameter in &intent.parameters {
+        clear(parameter.category, parameter.option);
+    }
+}
+
+/// Asks about the category of the best intent in which its options are least certain. A category's
+/// doubt is what its best option lacks of all that the category holds.
+fn clarify<const N: usize, const C: usize>(best: &Intent<C>, trace: &Trace<C, N>) -> Outcome<C> {
+    let (mut least, mut surest) = (Category::ACTION, 0.0);
+    let mut most = f32::NEG_INFINITY;
+    let categories = best.parameters.iter().map(|p| p.category);
+    for category in core::iter::once(Category::ACTION).chain(categories) {
+        let Some(word) = trace.category(category) else {
+            continue;
+        };
+        let (mut top, mut all) = (0.0, 0.0);
+        for p in word.merged() {
+            top = crate::math::larger(top, *p);
+            all += p;
+        }
+        surest = crate::math::larger(surest, top);
+        if all - top > most {
+            most = all - top;
+            least = category;
+        }
+    }
+    if surest >= LOST {
+        ask(least, Reason::TooClose, trace)
+    } else {
+        Outcome::Repeat
+    }
+}
+
+/// A question, its options by marginal.
+fn ask<const N: usize, const C: usize>(
+    category: Category,
+    reason: Reason,
+    trace: &Trace<C, N>,
+) -> Outcome<C> {
+    let mut question = Question {
+        category,
+        reason,
+        candidates: Vec::<u8, CANDIDATES>::new(),
+    };
+    if let Some(word) = trace.category(category) {
+        name(&mut question, word.merged(), word.judgement.unclear);
+    }
+    Outcome::Ask(question)
+}

@@ -1,0 +1,304 @@
+//! What a sensor reports when an option is meant.
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use crate::category::Category;
+use crate::sentence::MODALITIES;
+
+/// What a sensor without a table reports of every option but the one that is meant: the middle of
+/// the paper's similarity tables, 0.2 to 0.5.
+pub const ELSEWHERE: f32 = 0.3;
+
+/// How many tables there can be: three categories of four modalities.
+pub const TABLES: usize = 12;
+
+/// Why a row of a table was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SensorError {
+    /// A modality that this build does not have.
+    UnknownModality {
+        /// How many it has.
+        capacity: u8,
+    },
+    /// More tables, or larger ones, than this build holds.
+    TooLarge {
+        /// How many bytes of tables it holds.
+        capacity: u16,
+    },
+    /// Not a row of the table that was begun: its length is another, or there is no such option.
+    NotSquare {
+        /// How many options the table has.
+        options: u8,
+    },
+}
+
+/// Where a table is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Place {
+    modality: u8,
+    category: Category,
+    options: u8,
+    start: u16,
+    /// What is reported of every option but the one that is meant, when that is the same of all.
+    elsewhere: Option<u8>,
+}
+
+/// Learned confusion tables, as the paper's similarity tables are, by modality and category; `B`
+/// bytes of them.
+///
+/// A table has a row per option that may be meant, and in each a likelihood per option of what is
+/// reported. Without one a sensor reports 1 of what is meant and [`ELSEWHERE`] of all else.
+/// Likelihoods are kept in 255ths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensors<const B: usize> {
+    places: Vec<Place, TABLES>,
+    /// Row after row, table after table.
+    bytes: Vec<u8, B>,
+}
+
+impl<const B: usize> Default for Sensors<B> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const B: usize> Sensors<B> {
+    /// No tables at all.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            places: Vec::new(),
+            bytes: Vec::new(),
+        }
+    }
+
+    /// Forgets all tables.
+    pub fn clear(&mut self) {
+        self.places.clear();
+        self.bytes.clear();
+    }
+
+    /// Sets what a modality reports, in 255ths, when option `meant` of a category is. The first row
+    /// of a table makes the others as those of a sensor that is not known.
+    ///
+    /// # Errors
+    /// [`SensorError`]; nothing has changed then.
+    pub fn set_row(
+        &mut self,
+        modality: u8,
+        category: Category,
+        meant: u8,
+        row: &[u8],
+    ) -> Result<(), SensorError> {
+        if usize::from(modality) >= MODALITIES {
+            return Err(SensorError::UnknownModality {
+                capacity: MODALITIES as u8,
+            });
+        }
+        let known = self.view().place(modality, category);
+        let options = known.map_or(row.len(), |place| usize::from(place.options));
+        if options != row.len() || usize::from(meant) >= options {
+            return Err(SensorError::NotSquare {
+                options: u8::try_from(options).unwrap_or(u8::MAX),
+            });
+        }
+        let start = match known {
+            Some(place) => usize::from(place.start),
+            None => self.begin(modality, category, options)?,
+        };
+        let start = start.saturating_add(options.saturating_mul(usize::from(meant)));
+        let table = self.bytes.iter_mut().skip(start);
+        for (byte, value) in table.zip(row) {
+            *byte = *value;
+        }
+        let elsewhere = self.view().rows(modality, category, options).flat();
+        let is = |place: &&mut Place| place.modality == modality && place.category == category;
+        if let Some(place) = self.places.iter_mut().find(is) {
+            place.elsewhere = elsewhere;
+        }
+        Ok(())
+    }
+
+    fn begin(
+        &mut self,
+        modality: u8,
+        category: Category,
+        options: usize,
+    ) -> Result<usize, SensorError> {
+        let too_large = SensorError::TooLarge {
+            capacity: u16::try_from(B).unwrap_or(u16::MAX),
+        };
+        let start = self.bytes.len();
+        let more = options.saturating_mul(options);
+        let place = Place {
+            modality,
+            category,
+            options: u8::try_from(options).map_err(|_| too_large)?,
+            start: u16::try_from(start).map_err(|_| too_large)?,
+            elsewhere: None,
+        };
+        self.bytes
+            .resize(start.saturating_add(more), quantise(ELSEWHERE))
+            .map_err(|_| too_large)?;
+        if self.places.push(place).is_err() {
+            self.bytes.truncate(start);
+            return Err(too_large);
+        }
+        let table = self.bytes.iter_mut().skip(start);
+        for own in table.step_by(options.saturating_add(1)) {
+            *own = u8::MAX;
+        }
+        Ok(start)
+    }
+
+    /// The tables, without their capacity.
+    #[must_use]
+    pub fn view(&self) -> Tables<'_> {
+        Tables {
+            places: &self.places,
+            bytes: &self.bytes,
+        }
+    }
+}
+
+/// The tables of some [`Sensors`].
+#[derive(Clone, Copy, Debug)]
+pub struct Tables<'a> {
+    places: &'a [Place],
+    bytes: &'a [u8],
+}
+
+impl<'a> Tables<'a> {
+    /// No tables at all.
+    pub const NONE: Self = Self {
+        places: &[],
+        bytes: &[],
+    };
+
+    fn place(&self, modality: u8, category: Category) -> Option<Place> {
+        let is = |place: &&Place| place.modality == modality && place.category == category;
+        self.places.iter().find(is).copied()
+    }
+
+    /// The table of a modality for a category of `options` options; that of a plain sensor when there
+    /// is none that fits.
+    #[must_use]
+    pub fn rows(&self, modality: u8, category: Category, options: usize) -> Rows<'a> {
+        self.place(modality, category)
+            .filter(|place| usize::from(place.options) == options)
+            .and_then(|place| {
+                let start = usize::from(place.start);
+                let end = start.saturating_add(options.saturating_mul(options));
+                Some(Rows {
+                    bytes: self.bytes.get(start..end)?,
+                    options,
+                    elsewhere: place.elsewhere,
+                })
+            })
+            .unwrap_or(Rows {
+                bytes: &[],
+                options,
+                elsewhere: Some(const { quantise(ELSEWHERE) }),
+            })
+    }
+}
+
+/// One table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rows<'a> {
+    /// Row after row, in 255ths; empty of a sensor that is not known, which reports 255 of what is
+    /// meant.
+    pub bytes: &'a [u8],
+    /// How many options it has.
+    pub options: usize,
+    /// What is reported of every option but the one that is meant, when that is the same of all.
+    pub elsewhere: Option<u8>,
+}
+
+impl<'a> Rows<'a> {
+    /// What is reported when option `k` is meant; empty of a sensor that is not known.
+    #[inline(always)]
+    pub(super) fn of(&self, k: usize) -> &'a [u8] {
+        let start = k.wrapping_mul(self.options);
+        let row = self.bytes.get(start..start.wrapping_add(self.options));
+        row.unwrap_or(&[])
+    }
+
+    /// What stands everywhere but on the diagonal, if that is one value.
+    fn flat(&self) -> Option<u8> {
+        let mut value = None;
+        for k in 0..self.options {
+            for (_, &byte) in self.of(k).iter().enumerate().filter(|(j, _)| *j != k) {
+                if *value.get_or_insert(byte) != byte {
+                    return None;
+                }
+            }
+        }
+        value
+    }
+}
+
+/// A likelihood in 255ths.
+#[must_use]
+#[inline(always)]
+pub const fn quantise(likelihood: f32) -> u8 {
+    (likelihood * 255.0 + 0.5) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_is_kept_by_row() {
+        let mut sensors = Sensors::<32>::new();
+        sensors.set_row(0, Category::OBJECT, 1, &[1, 2, 3]).unwrap();
+        let rest = quantise(ELSEWHERE);
+        assert_eq!(
+            sensors.view().rows(0, Category::OBJECT, 3).bytes,
+            [255, rest, rest, 1, 2, 3, rest, rest, 255]
+        );
+        let unknown = |modality, options| sensors.view().rows(modality, Category::OBJECT, options);
+        for rows in [unknown(0, 4), unknown(1, 3)] {
+            assert_eq!((rows.bytes, rows.elsewhere), (&[][..], Some(rest)));
+        }
+        assert_eq!(unknown(0, 3).elsewhere, None);
+        sensors.set_row(1, Category::ACTION, 0, &[9]).unwrap();
+        assert_eq!(sensors.view().rows(1, Category::ACTION, 1).bytes, [9]);
+    }
+
+    #[test]
+    fn a_flat_table_is_known_as_such() {
+        let mut sensors = Sensors::<32>::new();
+        let c = Category::OBJECT;
+        for (meant, row) in [(0, [255, 7, 7]), (1, [7, 250, 7]), (2, [7, 7, 255])] {
+            assert_ne!(sensors.view().rows(0, c, 3).elsewhere, Some(7));
+            sensors.set_row(0, c, meant, &row).unwrap();
+        }
+        assert_eq!(sensors.view().rows(0, c, 3).elsewhere, Some(7));
+        sensors.set_row(0, c, 1, &[8, 255, 7]).unwrap();
+        assert_eq!(sensors.view().rows(0, c, 3).elsewhere, None);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let mut sensors = Sensors::<8>::new();
+        let c = Category::ACTION;
+        assert_eq!(
+            sensors.set_row(4, c, 0, &[1]),
+            Err(SensorError::UnknownModality { capacity: 4 })
+        );
+        assert_eq!(
+            sensors.set_row(0, c, 0, &[1; 3]),
+            Err(SensorError::TooLarge { capacity: 8 })
+        );
+        sensors.set_row(0, c, 0, &[1; 2]).unwrap();
+        for (meant, row) in [(2, &[1, 1][..]), (0, &[1, 1, 1])] {
+            assert_eq!(
+                sensors.set_row(0, c, meant, row),
+                Err(SensorError::NotSquare { options: 2 })
+            );
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Platt's scaling by noise class, and the shape of the cut.
+
+use deictic_core::joint::belief::logit;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+
+use super::{Cell, KNOTS, Table, dot, hat};
+
+/// Parameters of the scaling.
+const WIDTH: usize = 2 * KNOTS;
+
+/// n4 counts more, which evens out that n3 is too shy and n4 too bold.
+const WEIGHTS: [f64; 5] = [1.0, 1.0, 1.0, 1.0, 1.4];
+
+/// How strongly slopes are held at 1, per sample: only where a class has hardly any.
+const RIDGE: f64 = 1e-5;
+
+/// What share of each level should be executed; what lacks of it counts fourfold.
+const AIM: [f64; 5] = [0.0, 0.99, 0.99, 0.67, 0.53];
+
+/// How much of the tolerated risk the shape may have on the samples it is fitted to.
+const PART: f64 = 0.92;
+
+/// Slopes and offsets by weighted logistic regression, by Newton's steps.
+#[must_use]
+pub fn scaling(cells: &[Cell]) -> ([f64; KNOTS], [f64; KNOTS]) {
+    let rows: Vec<(f64, [f64; WIDTH], f64)> = cells
+        .iter()
+        .flat_map(|cell| cell.samples.iter().map(|s| (WEIGHTS[cell.level.min(4)], s)))
+        .map(|(weight, sample)| {
+            let (hat, z) = (
+                hat(&sample.belief),
+                f64::from(logit(sample.belief.posterior)),
+            );
+            let row = std::array::from_fn(|i| hat[i % KNOTS] * if i < KNOTS { z } else { 1.0 });
+            (weight, row, f64::from(u8::from(sample.right)))
+        })
+        .collect();
+    let total: f64 = rows.iter().map(|(w, ..)| w).sum();
+    let mut theta: [f64; WIDTH] = std::array::from_fn(|i| if i < KNOTS { 1.0 } else { 0.0 });
+    for _ in 0..30 {
+        let mut gradient = [0.0; WIDTH];
+        let mut hessian = [[0.0; WIDTH]; WIDTH];
+        for (weight, row, right) in &rows {
+            let p = 1.0 / (1.0 + (-dot(&theta, row)).exp());
+            for i in 0..WIDTH {
+                gradient[i] += weight * (p - right) * row[i];
+                for j in 0..=i {
+                    hessian[i][j] += weight * p * (1.0 - p) * row[i] * row[j];
+                }
+            }
+        }
+        for i in 0..WIDTH {
+            let held = if i < KNOTS { 1.0 } else { 0.0 };
+            gradient[i] += 2.0 * RIDGE * total * (theta[i] - held);
+            hessian[i][i] += 2.0 * RIDGE * total;
+        }
+        let step = solve(hessian, gradient);
+        for (theta, step) in theta.iter_mut().zip(step) {
+            *theta -= step;
+        }
+        if step.iter().all(|s| s.abs() < 1e-9) {
+            break;
+        }
+    }
+    let half = |from: usize| std::array::from_fn(|i| theta[from + i]);
+    (half(0), half(KNOTS))
+}
+
+/// Solves a positive definite system of which the lower half is given (Cholesky).
+fn solve(mut a: [[f64; WIDTH]; WIDTH], mut b: [f64; WIDTH]) -> [f64; WIDTH] {
+    for i in 0..WIDTH {
+        for j in 0..=i {
+            let below: f64 = (0..j).map(|k| a[i][k] * a[j][k]).sum();
+            let rest = a[i][j] - below;
+            a[i][j] = if i == j { rest.sqrt() } else { rest / a[j][j] };
+        }
+    }
+    for i in 0..WIDTH {
+        let below: f64 = (0..i).map(|k| a[i][k] * b[k]).sum();
+        b[i] = (b[i] - below) / a[i][i];
+    }
+    for i in (0..WIDTH).rev() {
+        let above: f64 = (i + 1..WIDTH).map(|k| a[k][i] * b[k]).sum();
+        b[i] = (b[i] - above) / a[i][i];
+    }
+    b
+}
+
+/// The cut by noise class that executes most while no cell's risk exceeds the target: descent along
+/// axes and some fixed random directions, from four starts.
+#[must_use]
+pub fn shape(cells: &[Cell], table: &Table, tolerated: f64) -> [f64; KNOTS] {
+    let cells: Vec<(usize, Vec<_>)> = cells
+        .iter()
+        .filter(|cell| cell.level > 0)
+        .map(|cell| {
+            let sample =
+                |s: &super::Believed| (table.confidence(&s.belief), hat(&s.belief), s.right);
+            (cell.level, cell.samples.iter().map(sample).collect())
+        })
+        .collect();
+    let score = |cut: &[f64; KNOTS]| {
+        let figures: Vec<(usize, f64, f64)> = cells
+            .par_iter()
+            .map(|(level, samples)| {
+                let executed = samples.iter().filter(|(z, hat, _)| *z >= dot(cut, hat));
+                let (all, wrong) = executed.fold((0.0, 0.0), |(all, wrong), (.., right)| {
+                    (all + 1.0, wrong + f64::from(u8::from(!right)))
+                });
+                let n = samples.len().max(1) as f64;
+                (*level, all / n, wrong / n)
+            })
+            .collect();
+        let mut executed = [0.0; 5];
+        let mut risk: f64 = 0.0;
+        let of_level = cells.len() as f64 / 4.0;
+        for (level, share, wrong) in figures {
+            executed[level.min(4)] += share / of_level;
+            risk = risk.max(wrong);
+        }
+        let lacks: f64 = AIM
+            .iter()
+            .zip(&executed)
+            .map(|(aim, e)| (aim - e).max(0.0))
+            .sum();
+        executed.iter().sum::<f64>() - 3.0 * lacks - 20.0 * (risk / tolerated - PART).max(0.0)
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };
+    let mut directions: Vec<[f64; KNOTS]> = Vec::new();
+    for i in 0..KNOTS {
+        for sign in [1.0, -1.0] {
+            directions.push(std::array::from_fn(|j| if i == j { sign } else { 0.0 }));
+        }
+    }
+    directions.extend((0..24).map(|_| std::array::from_fn(|_| 0.7 * draw())));
+    let starts = [
+        [4.0; KNOTS],
+        [0.0, 0.0, 3.0, 3.0],
+        [0.0, 1.0, 4.0, 3.0],
+        [1.0, 2.0, 2.0, 4.0],
+    ];
+    let mut best = (f64::NEG_INFINITY, starts[0]);
+    for start in starts {
+        let (mut cut, mut top, mut step) = (start, score(&start), 1.0);
+        while step > 0.02 {
+            let mut moved = false;
+            for direction in &directions {
+                let next = std::array::from_fn(|i| (cut[i] + step * direction[i]).max(0.0));
+                let value = score(&next);
+                if value > top + 1e-9 {
+                    (cut, top, moved) = (next, value, true);
+                }
+            }
+            if !moved {
+                step /= 2.0;
+            }
+        }
+        if top > best.0 {
+            best = (top, cut);
+        }
+    }
+    best.1
+}
