@@ -6,6 +6,7 @@ pub mod clock;
 pub mod cmd;
 pub mod deciding;
 pub mod diagnose;
+pub mod draw;
 pub mod explain;
 pub mod hand;
 pub mod language;

@@ -18,6 +18,7 @@ enum Command {
     Decide(cmd::decide::Decide),
     Run(cmd::run::Run),
     Play(cmd::play::Play),
+    Scene(cmd::scene::Scene),
     Setups(cmd::setups::Setups),
 }
 
@@ -26,6 +27,7 @@ fn main() -> miette::Result<ExitCode> {
         Command::Decide(decide) => decide.run()?,
         Command::Run(run) => return run.run().map(ExitCode::from),
         Command::Play(play) => play.run()?,
+        Command::Scene(scene) => scene.run()?,
         Command::Setups(setups) => setups.run()?,
     }
     Ok(ExitCode::SUCCESS)

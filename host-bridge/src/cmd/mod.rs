@@ -5,10 +5,13 @@ pub mod decide;
 mod files;
 mod lines;
 mod paint;
+mod pictures;
 pub mod play;
 mod printer;
 mod profile;
 pub mod run;
+pub mod scene;
+mod scenes;
 pub mod setups;
 
 use miette::Report;

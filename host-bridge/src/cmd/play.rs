@@ -13,6 +13,7 @@ use serde_json::json;
 
 use super::conversation::Conversation;
 use super::files::Files;
+use super::pictures::{Draw, Pictures};
 use super::printer::Printer;
 use super::profile::Choice;
 use super::{advice, paint};
@@ -47,6 +48,8 @@ pub struct Play {
     /// Print all figures behind a decision, not only those that count
     #[arg(long)]
     explain: bool,
+    #[command(flatten)]
+    draw: Draw,
     /// Print JSON lines, for programs
     #[arg(long)]
     json: bool,
@@ -89,6 +92,7 @@ impl Play {
             json: self.json,
             full: self.explain,
         };
+        let mut pictures = self.draw.open()?;
         printer.greet(&self.board, &session);
         let mut conversation = Conversation::new(&listener, printer);
         let mut rows = Vec::new();
@@ -101,7 +105,13 @@ impl Play {
             conversation.sensors = turn
                 .noise
                 .map(|noise| Sensors::new(&lexicon, noise, turn.seed));
-            rows.push(play(turn, &mut session, &mut conversation, printer)?);
+            rows.push(play(
+                turn,
+                &mut session,
+                &mut conversation,
+                printer,
+                &mut pictures,
+            )?);
         }
         printer.object(&json!({ "event": "summary", "rows": rows }));
         if !self.json {
@@ -117,6 +127,7 @@ fn play(
     session: &mut Session<'_>,
     conversation: &mut Conversation<'_>,
     printer: Printer,
+    pictures: &mut Pictures,
 ) -> Result<Row> {
     let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
     let noise = turn.noise.map(|noise| format!(" ({noise:?})"));
@@ -130,8 +141,10 @@ fn play(
     conversation.take(session, turn.said.as_deref(), turn.shown.as_deref());
     let mut answer = turn.answer.as_deref();
     loop {
+        pictures.turn(session);
         for happening in session.turn(Duration::from_millis(10)) {
             printer.happening(&happening, session.table(), session.lexicon());
+            pictures.happening(&happening, session)?;
             row.take(&happening, session);
             match happening {
                 Happening::Lost(loss) => {

@@ -13,12 +13,15 @@ use miette::{Context, IntoDiagnostic, Result};
 use super::conversation::{Conversation, Ending};
 use super::files::Files;
 use super::lines::{Lines, Typed};
+use super::pictures::Draw;
 use super::printer::Printer;
 use super::profile::Choice;
+use super::scenes::Scenes;
 use super::{advice, paint};
 use crate::language::Listener;
 use crate::link::{self, Address};
 use crate::robot::{self, address::reach};
+use crate::scene::SceneLine;
 use crate::sensor::{Noise, Sensors};
 use crate::session::Session;
 
@@ -52,6 +55,13 @@ pub struct Run {
     haste: f32,
     #[command(flatten)]
     files: Files,
+    /// Read the scene file again whenever it changes
+    #[arg(long, requires = "scene")]
+    watch: bool,
+    /// Take scene changes, as lines of JSON, at this port of this machine; 0 takes a free one.
+    /// `deictic scene` speaks to it. Lines that are typed and begin with { are scene changes as well
+    #[arg(long, value_name = "PORT")]
+    scene_port: Option<u16>,
     /// Say this, and end when it is done
     #[arg(long, value_name = "TEXT")]
     say: Option<String>,
@@ -73,6 +83,8 @@ pub struct Run {
     /// Print why the unit decided as it did
     #[arg(long)]
     explain: bool,
+    #[command(flatten)]
+    draw: Draw,
     /// Print JSON lines, for programs
     #[arg(long)]
     json: bool,
@@ -101,7 +113,9 @@ impl Run {
             json: self.json,
             full: true,
         };
+        let mut pictures = self.draw.open()?;
         printer.greet(&self.board, &session);
+        let mut scenes = Scenes::open(&self.files, self.watch, self.scene_port, printer)?;
         let mut conversation = Conversation::new(&listener, printer);
         conversation.sensors = self.noise.map(|n| Sensors::new(&lexicon, n, self.seed));
         let mut lines = None;
@@ -118,12 +132,18 @@ impl Run {
                 match lines.next() {
                     Typed::Line(line) => {
                         prompted = false;
+                        if SceneLine::is_meant(&line) {
+                            scenes.line(&mut session, &line);
+                            continue;
+                        }
                         conversation.line(&mut session, &line);
                     }
                     Typed::End => conversation.quit(),
                     Typed::Nothing => {}
                 }
             }
+            scenes.turn(&mut session);
+            pictures.turn(&session);
             conversation.next(&mut session);
             match interrupts.swap(0, Ordering::Relaxed) {
                 0 => {}
@@ -136,6 +156,7 @@ impl Run {
             for happening in session.turn(TURN) {
                 conversation.hear(&happening);
                 printer.happening(&happening, session.table(), &lexicon);
+                pictures.happening(&happening, &session)?;
             }
             match conversation.ending(&session, once) {
                 Some(ending) => return Ok(exit_code(ending)),

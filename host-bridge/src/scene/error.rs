@@ -36,6 +36,24 @@ pub enum SceneProblem {
     /// A likelihood that is not in 0..=1.
     #[error("\"{0}\" is not a likelihood in 0..=1")]
     BadLikelihood(f32),
+    /// A line that is no JSON, or not of this shape.
+    #[error("{0}")]
+    Line(String),
+    /// A line that is longer than any scene.
+    #[error("a line of {0} bytes is no scene")]
+    LongLine(usize),
+    /// A thing that is neither an object nor a storage, or both.
+    #[error("a thing has a name as an `object` or as a `storage`")]
+    Nameless,
+    /// A thing that is named twice in one table.
+    #[error("the {0} is on the table twice")]
+    Twice(String),
+    /// A new thing without a place.
+    #[error("the {0} is new on the table and has no `position`")]
+    NoPosition(String),
+    /// A thing that is to be taken away and is not there.
+    #[error("the {0} is not on the table")]
+    NotThere(String),
     /// The core refused a thing.
     #[error("{}", explain::scene_error(.0).what)]
     Refused(SceneError),
@@ -64,6 +82,18 @@ impl Problem for SceneProblem {
                 did_you_mean(name, known.iter().map(String::as_str)),
                 quoted(known.iter().map(String::as_str))
             ),
+            Self::Line(_) | Self::LongLine(_) => {
+                "write {\"change\": {...}}, {\"remove\": {...}}, {\"things\": [...]} or \"show\" on a \
+                 line of its own"
+                    .into()
+            }
+            Self::Nameless => {
+                "write for example {\"change\": {\"object\": \"can\", \"position\": [0.4, 0.1, 0.06]}}"
+                    .into()
+            }
+            Self::Twice(_) => "name it once".into(),
+            Self::NoPosition(_) => "give its place as [x, y, z] in metres".into(),
+            Self::NotThere(_) => "ask with \"show\" for what is on the table".into(),
             Self::BadLikelihood(_) => "write a number from 0 to 1, or true or false".into(),
             Self::Refused(error) => explain::scene_error(error).remedy,
         }

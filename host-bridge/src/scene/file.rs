@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use deictic_core::category::Category;
 use deictic_core::large;
 use deictic_core::scene::SceneError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::error::SceneProblem as Problem;
@@ -39,11 +39,29 @@ struct Thing {
     features: BTreeMap<Spanned<String>, Spanned<Likelihood>>,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+/// How likely a feature is, as people write it.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(untagged)]
-enum Likelihood {
+pub enum Likelihood {
+    /// `true` or `false`.
     Certain(bool),
+    /// A number in 0..=1.
     Some(f32),
+}
+
+impl Likelihood {
+    /// The number.
+    ///
+    /// # Errors
+    /// The number itself when it is not in 0..=1.
+    pub fn value(self) -> Result<f32, f32> {
+        match self {
+            Self::Certain(true) => Ok(1.0),
+            Self::Certain(false) => Ok(0.0),
+            Self::Some(x) if (0.0..=1.0).contains(&x) => Ok(x),
+            Self::Some(x) => Err(x),
+        }
+    }
 }
 
 /// A scene file that was read but not yet compared with a vocabulary, as it may name the vocabulary
@@ -177,14 +195,8 @@ fn entity(
             };
             return Err((Some(feature.span()), problem));
         };
-        let value = match *likelihood.as_ref() {
-            Likelihood::Certain(true) => 1.0,
-            Likelihood::Certain(false) => 0.0,
-            Likelihood::Some(x) if (0.0..=1.0).contains(&x) => x,
-            Likelihood::Some(x) => {
-                return Err((Some(likelihood.span()), Problem::BadLikelihood(x)));
-            }
-        };
+        let value = likelihood.as_ref().value();
+        let value = value.map_err(|x| (Some(likelihood.span()), Problem::BadLikelihood(x)))?;
         if let Some(f) = features.get_mut(at) {
             *f = value;
         }

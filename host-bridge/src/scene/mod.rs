@@ -1,7 +1,10 @@
 //! What is on the table: a scene file in words, and the table as it is now.
 
 mod error;
+pub mod feed;
 mod file;
+pub mod line;
+pub mod watch;
 
 use deictic_core::category::Category;
 use deictic_core::large;
@@ -10,7 +13,8 @@ use deictic_core::scene::SceneError;
 use crate::vocabulary::Lexicon;
 
 pub use error::SceneProblem;
-pub use file::{SceneFile, SceneFileError};
+pub use file::{Likelihood, SceneFile, SceneFileError};
+pub use line::SceneLine;
 
 /// The scene that comes with the program, for the tabletop vocabulary.
 pub const TABLE: &str = include_str!("../../data/scenes/table.toml");

@@ -14,15 +14,16 @@ use std::time::{Duration, Instant};
 
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
-use deictic_core::large::{Intent, Sentence};
+use deictic_core::large::{self, Intent, Sentence};
 use deictic_core::protocol::message::Configuration;
+use deictic_core::scene::SceneError;
 use deictic_core::time::Micros;
 use deictic_core::unit::pairing::ANSWER;
 
 use crate::answering::certainly;
 use crate::clock;
 use crate::explain::reasons::Reasons;
-use crate::robot::{CommandId, Robot};
+use crate::robot::{CommandId, Posture, Robot};
 use crate::scene::Tabletop;
 use crate::understanding::is_stop;
 use crate::unit::{GestureUnit, Opener, UnitError};
@@ -141,6 +142,28 @@ impl<'a> Session<'a> {
     #[must_use]
     pub fn progress(&self) -> Option<u8> {
         self.robot.progress(self.now()).map(|(_, percent)| percent)
+    }
+
+    /// How the arm stands, where the robot says so.
+    #[must_use]
+    pub fn posture(&self) -> Option<Posture> {
+        self.robot.posture(self.now())
+    }
+
+    /// Lays the table anew, as a scene source sees it now. The unit is told; what it decided on the table
+    /// before is not executed any more.
+    ///
+    /// # Errors
+    /// [`SceneError`] when a thing does not fit the vocabulary; the table is then as it was.
+    pub fn lay(&mut self, things: Vec<large::Entity>) -> Result<(), SceneError> {
+        if things == self.table.scene().entities() {
+            return Ok(());
+        }
+        self.table.replace(things, self.lexicon)?;
+        self.happened.push(Happening::Table(self.table.version()));
+        // A unit that is not there gets it when it comes back.
+        let _ = self.unit.set_scene(self.table.scene());
+        Ok(())
     }
 
     /// Whether nothing is going on: no decision is waited for, the robot stands still, nothing is

@@ -78,14 +78,13 @@ impl Skeleton {
     #[must_use]
     pub fn line(&self) -> Vec<Point3<f64>> {
         let origin = Point3::origin();
-        let elbow = |frame: &Pose, x: f64| frame * Point3::new(x, 0.0, 0.0);
-        let [_, shoulder, _, knee, _, wrist, last] = &self.joints;
+        let [_, shoulder, upper, elbow, _, wrist, last] = &self.joints;
         vec![
             origin,
             shoulder * origin,
-            elbow(knee, -0.0825),
-            knee * origin,
-            elbow(knee, -0.0825),
+            upper * origin,
+            elbow * origin,
+            elbow * Point3::new(-0.0825, 0.0, 0.0),
             wrist * origin,
             last * origin,
             self.flange * origin,
