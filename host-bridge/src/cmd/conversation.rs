@@ -63,6 +63,11 @@ impl<'a> Conversation<'a> {
             self.waiting.clear();
             session.stop();
             self.typed(session, text);
+        } else if text == "cancel" {
+            self.printer
+                .nothing(&format!("{} typed lines are forgotten", self.waiting.len()));
+            self.waiting.clear();
+            session.cancel();
         } else if !text.is_empty() {
             self.waiting.push_back(text.to_owned());
         }
@@ -185,6 +190,7 @@ impl<'a> Conversation<'a> {
             | Happening::Overruled
             | Happening::Fault(_)
             | Happening::NoDecision
+            | Happening::Hanging(_)
             | Happening::Lost(_)
             | Happening::Dropped(_) => Ending::NotDone,
             Happening::Decided { decision, .. } if decision.outcome == Outcome::Repeat => {

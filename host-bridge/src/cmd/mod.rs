@@ -4,6 +4,7 @@ mod conversation;
 pub mod decide;
 mod files;
 mod lines;
+mod log;
 mod paint;
 mod pictures;
 pub mod play;

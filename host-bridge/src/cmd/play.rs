@@ -13,6 +13,7 @@ use serde_json::json;
 
 use super::conversation::Conversation;
 use super::files::Files;
+use super::log::Log;
 use super::pictures::{Draw, Pictures};
 use super::printer::Printer;
 use super::profile::Choice;
@@ -50,6 +51,9 @@ pub struct Play {
     explain: bool,
     #[command(flatten)]
     draw: Draw,
+    /// Write what became of each command to the end of this file, as lines of JSON
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
     /// Print JSON lines, for programs
     #[arg(long)]
     json: bool,
@@ -93,6 +97,7 @@ impl Play {
             full: self.explain,
         };
         let mut pictures = self.draw.open()?;
+        let mut log = Log::open(self.log.as_deref())?;
         printer.greet(&self.board, &session);
         let mut conversation = Conversation::new(&listener, printer);
         let mut rows = Vec::new();
@@ -111,6 +116,7 @@ impl Play {
                 &mut conversation,
                 printer,
                 &mut pictures,
+                &mut log,
             )?);
         }
         printer.object(&json!({ "event": "summary", "rows": rows }));
@@ -128,6 +134,7 @@ fn play(
     conversation: &mut Conversation<'_>,
     printer: Printer,
     pictures: &mut Pictures,
+    log: &mut Log,
 ) -> Result<Row> {
     let text = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
     let noise = turn.noise.map(|noise| format!(" ({noise:?})"));
@@ -145,6 +152,7 @@ fn play(
         for happening in session.turn(Duration::from_millis(10)) {
             printer.happening(&happening, session.table(), session.lexicon());
             pictures.happening(&happening, session)?;
+            log.hear(&happening, session.lexicon())?;
             row.take(&happening, session);
             match happening {
                 Happening::Lost(loss) => {
@@ -203,6 +211,7 @@ impl Row {
             Happening::Robot(Event::Stopped { step, .. }) => {
                 self.robot = format!("stopped: {step}")
             }
+            Happening::Hanging(_) => self.robot = "hangs".to_owned(),
             Happening::Robot(Event::Failed { why, .. }) => self.robot = format!("failed: {why}"),
             _ => {}
         }

@@ -115,6 +115,10 @@ impl Printer {
         self.line("", "// pick can                     show it");
         self.line("", "put it there // put-into drawer say and show it");
         self.line("", "stop                            stand still, at once");
+        self.line(
+            "",
+            "cancel                          forget what was typed and not begun",
+        );
         self.line("", "table, help, quit");
     }
 
@@ -197,6 +201,14 @@ impl Printer {
                 }));
             }
             Happening::Robot(event) => self.robot(event),
+            Happening::Hanging(_) => self.advice(
+                "robot",
+                "hanging",
+                &Advice {
+                    what: "the robot has got nowhere for a minute; it was told to stop".into(),
+                    remedy: "look at the robot, and say it again".into(),
+                },
+            ),
             Happening::Table(version) => {
                 self.object(&json!({ "event": "table", "version": version }));
             }

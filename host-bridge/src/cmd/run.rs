@@ -1,6 +1,7 @@
 //! `deictic run`: a unit, a robot, and a person who types.
 
 use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::Duration;
@@ -13,6 +14,7 @@ use miette::{Context, IntoDiagnostic, Result};
 use super::conversation::{Conversation, Ending};
 use super::files::Files;
 use super::lines::{Lines, Typed};
+use super::log::Log;
 use super::pictures::Draw;
 use super::printer::Printer;
 use super::profile::Choice;
@@ -85,6 +87,9 @@ pub struct Run {
     explain: bool,
     #[command(flatten)]
     draw: Draw,
+    /// Write what became of each command to the end of this file, as lines of JSON
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
     /// Print JSON lines, for programs
     #[arg(long)]
     json: bool,
@@ -114,6 +119,7 @@ impl Run {
             full: true,
         };
         let mut pictures = self.draw.open()?;
+        let mut log = Log::open(self.log.as_deref())?;
         printer.greet(&self.board, &session);
         let mut scenes = Scenes::open(&self.files, self.watch, self.scene_port, printer)?;
         let mut conversation = Conversation::new(&listener, printer);
@@ -157,6 +163,7 @@ impl Run {
                 conversation.hear(&happening);
                 printer.happening(&happening, session.table(), &lexicon);
                 pictures.happening(&happening, &session)?;
+                log.hear(&happening, &lexicon)?;
             }
             match conversation.ending(&session, once) {
                 Some(ending) => return Ok(exit_code(ending)),

@@ -5,7 +5,7 @@ use deictic_core::large::{Decision, Intent};
 use deictic_core::protocol::message::{Fault, Hello};
 
 use crate::explain::reasons::Reasons;
-use crate::robot::{Event, Refusal};
+use crate::robot::{CommandId, Event, Refusal};
 use crate::unit::{Distrust, Loss};
 
 /// Something that happened in a session.
@@ -46,6 +46,9 @@ pub enum Happening {
     },
     /// How the robot fares.
     Robot(Event),
+    /// The robot has said nothing and got nowhere for too long; it was told to stop, and its command
+    /// has failed.
+    Hanging(CommandId),
     /// The table is different, and this is its version now.
     Table(u32),
     /// What the robot did to the table cannot be; the table is kept as it was.

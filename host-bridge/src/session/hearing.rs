@@ -5,7 +5,7 @@ use deictic_core::large::Intent;
 use deictic_core::protocol::message::{Decided, RobotState, RobotStatus};
 use deictic_core::time::Micros;
 
-use super::{Doing, Happening, PATIENCE, Session};
+use super::{Doing, HANGING, Happening, PATIENCE, Session};
 use crate::clock;
 use crate::deciding::heard;
 use crate::explain;
@@ -123,11 +123,14 @@ impl Session<'_> {
                     self.happened.push(Happening::Accepted(intent.clone()));
                     self.report(decision, RobotState::Running(0));
                 }
-                self.doing = Some(Doing {
+                let doing = Doing {
                     id,
                     decision,
                     intent,
-                });
+                    percent: 0,
+                    heard: clock::now(),
+                };
+                self.overtaken.extend(self.doing.replace(doing));
             }
             Err(refusal) => {
                 let intent = command.intent;
@@ -144,6 +147,9 @@ impl Session<'_> {
     pub(super) fn hear_robot(&mut self) {
         let now = self.now();
         for event in self.robot.poll(now) {
+            if let Some(doing) = &mut self.doing {
+                doing.heard = clock::now();
+            }
             match event {
                 robot::Event::Accepted(id) => self.accepted(id),
                 robot::Event::Refused { id, refusal } => self.refused(id, refusal),
@@ -198,8 +204,31 @@ impl Session<'_> {
         }
     }
 
+    /// Stops a robot that has got nowhere for too long; its command has failed.
+    pub(super) fn give_up_on_hanging(&mut self) {
+        let now = self.now();
+        let percent = self.robot.progress(now).map(|(_, percent)| percent);
+        let Some(doing) = &mut self.doing else {
+            return;
+        };
+        if percent.is_some_and(|percent| percent != doing.percent) {
+            doing.percent = percent.unwrap_or_default();
+            doing.heard = clock::now();
+        }
+        if clock::since(doing.heard) < HANGING {
+            return;
+        }
+        let id = doing.id;
+        self.overtaken.clear();
+        self.robot.stop(now);
+        self.happened.push(Happening::Hanging(id));
+        self.over(id, RobotState::Failed);
+    }
+
     fn over(&mut self, id: CommandId, state: RobotState) {
-        if let Some(doing) = self.doing.take_if(|d| d.id == id) {
+        let overtaken = self.overtaken.iter().position(|d| d.id == id);
+        let overtaken = overtaken.map(|at| self.overtaken.remove(at));
+        if let Some(doing) = overtaken.or_else(|| self.doing.take_if(|d| d.id == id)) {
             if state != RobotState::Done {
                 self.drop_queue();
             }

@@ -8,9 +8,10 @@
 
 mod happening;
 mod hearing;
+pub mod journal;
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
@@ -38,11 +39,18 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// at their surest.
 pub const ANSWER_WEIGHT: f32 = 10.0;
 
+/// How long a robot may neither say anything nor get on before it counts as hanging: several times the
+/// longest motion of a careful arm.
+const HANGING: Duration = Duration::from_secs(60);
+
 /// A command that the robot is doing, and the decision it comes from.
 struct Doing {
     id: CommandId,
     decision: u32,
     intent: Intent,
+    /// How far it was when it last got on, and when that was.
+    percent: u8,
+    heard: Instant,
 }
 
 /// A unit, a robot and a table.
@@ -56,6 +64,8 @@ pub struct Session<'a> {
     run: u32,
     commands: u32,
     doing: Option<Doing>,
+    /// Commands that were overtaken by a stop, until the robot says that it stands.
+    overtaken: Vec<Doing>,
     /// What the next decision is made of: the sentences since the last one that was final.
     spoken: Vec<Sentence>,
     /// The decision that asked, and what.
@@ -95,9 +105,10 @@ impl<'a> Session<'a> {
             table,
             configuration,
             began: clock::now(),
-            run: std::process::id(),
+            run: new_run(),
             commands: 0,
             doing: None,
+            overtaken: Vec::new(),
             spoken: Vec::new(),
             question: None,
             due: None,
@@ -172,6 +183,7 @@ impl<'a> Session<'a> {
     pub fn is_idle(&self) -> bool {
         self.due.is_none()
             && self.doing.is_none()
+            && self.overtaken.is_empty()
             && self.queue.is_empty()
             && self.reasons.is_none()
             && self.happened.is_empty()
@@ -201,6 +213,11 @@ impl<'a> Session<'a> {
     /// They are dropped as soon as one of them is not executed to its end.
     pub fn queue(&mut self, sentences: impl IntoIterator<Item = Sentence>) {
         self.queue.extend(sentences);
+    }
+
+    /// Takes back what was queued and not begun; what the robot is doing goes on.
+    pub fn cancel(&mut self) {
+        self.drop_queue();
     }
 
     /// Tells the unit the answer to its question.
@@ -241,6 +258,7 @@ impl<'a> Session<'a> {
     /// the unit and the robot going.
     pub fn turn(&mut self, patience: Duration) -> Vec<Happening> {
         self.hear_robot();
+        self.give_up_on_hanging();
         let patience = if self.happened.is_empty() {
             patience
         } else {
@@ -263,7 +281,8 @@ impl<'a> Session<'a> {
         {
             self.tell_reasons();
         }
-        let ready = self.due.is_none() && self.doing.is_none() && self.question.is_none();
+        let still = self.doing.is_none() && self.overtaken.is_empty();
+        let ready = self.due.is_none() && still && self.question.is_none();
         if ready
             && self.unit.is_there()
             && let Some(next) = self.queue.pop_front()
@@ -299,4 +318,13 @@ impl<'a> Session<'a> {
             self.queue.clear();
         }
     }
+}
+
+/// Tells one run of a bridge from another, so that a robot that remembers what it was given does not take
+/// the commands of this one for those of the last.
+fn new_run() -> u32 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    let millis = since.map_or(0, |since| since.as_millis());
+    // The lower half of the milliseconds comes back after 49 days.
+    (millis as u32) ^ std::process::id().rotate_left(16)
 }

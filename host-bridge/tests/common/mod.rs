@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use deictic::link::{Inside, Wire};
+use deictic::robot::Robot;
 use deictic::robot::sim::Sim;
 use deictic::scene::{SceneFile, Tabletop};
 use deictic::session::{Happening, Session};
@@ -140,6 +141,15 @@ pub fn open_on<'a>(
     haste: f32,
     table: Tabletop,
 ) -> Session<'a> {
+    open_with(cable, lexicon, Box::new(Sim::new(haste)), table)
+}
+
+pub fn open_with<'a>(
+    cable: &Cable,
+    lexicon: &'a Lexicon,
+    robot: Box<dyn Robot>,
+    table: Tabletop,
+) -> Session<'a> {
     let wire = cable.clone();
     let opener = Box::new(move || {
         wire.with(|line| line.opened += 1);
@@ -149,7 +159,6 @@ pub fn open_on<'a>(
         window: Micros::from_millis(30),
         ..Configuration::DEFAULT
     };
-    let robot = Box::new(Sim::new(haste));
     Session::open(opener, robot, table, lexicon, configuration).unwrap()
 }
 
