@@ -10,15 +10,19 @@ pub struct Choice {
     /// The paper's method, or its authors' public implementation with its habits
     #[arg(long, value_enum, default_value_t = Named::Paper)]
     profile: Named,
-    /// Merge only (m1), with unaligned parameters (m2), with unaligned features too (m3)
+    /// Merge only (m1), with unaligned parameters (m2), with unaligned features too (m3); or one
+    /// posterior over whole intents (joint)
     #[arg(long, value_enum, default_value_t = ModelName::M3)]
     model: ModelName,
     /// How the words of several modalities become one
     #[arg(long, value_enum, default_value_t = MergeName::Add)]
     merge: MergeName,
-    /// What makes an option clear
-    #[arg(long, value_enum, default_value_t = ThresholdName::Entropy)]
-    threshold: ThresholdName,
+    /// What makes an option clear [default: entropy; of the joint model: risk]
+    #[arg(long, value_enum)]
+    threshold: Option<ThresholdName>,
+    /// The share of commands that may be executed wrongly; for the risk threshold
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
+    risk: f32,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -33,6 +37,7 @@ enum ModelName {
     M1,
     M2,
     M3,
+    Joint,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -52,6 +57,8 @@ enum ThresholdName {
     WhiteNoise,
     /// Against fixed likelihoods
     Fixed,
+    /// The confidence in the whole intent against the tolerated risk; of the joint model
+    Risk,
 }
 
 impl Choice {
@@ -62,20 +69,30 @@ impl Choice {
             ModelName::M1 => Model::M1,
             ModelName::M2 => Model::M2,
             ModelName::M3 => Model::M3,
+            ModelName::Joint => Model::Joint,
         };
         let merge = match self.merge {
             MergeName::Max => Merge::Max,
             MergeName::Mul => Merge::Mul,
             MergeName::Add => Merge::Add,
         };
-        let threshold = match self.threshold {
+        let usual = match model {
+            Model::Joint => ThresholdName::Risk,
+            _ => ThresholdName::Entropy,
+        };
+        let threshold = match self.threshold.unwrap_or(usual) {
             ThresholdName::None => Threshold::None,
             ThresholdName::Entropy => Threshold::Entropy,
             ThresholdName::WhiteNoise => Threshold::WhiteNoise,
             ThresholdName::Fixed => Threshold::FIXED,
+            ThresholdName::Risk => Threshold::Risk { rate: self.risk },
         };
         match (self.profile, model, threshold) {
             (Named::Paper, Model::Baseline, _) => Profile::BASELINE,
+            (_, Model::Joint, _) => Profile {
+                threshold,
+                ..Profile::JOINT
+            },
             (Named::Paper, ..) => Profile {
                 model,
                 merge,

@@ -55,7 +55,8 @@ pub struct Results {
     bounds: BTreeMap<String, Bound>,
 }
 
-/// Every variant of both profiles: 4 models, 3 merges, 3 thresholds and none.
+/// Every variant of a profile: the paper's 4 models, 3 merges, 3 thresholds and none; and the joint
+/// model.
 #[must_use]
 pub fn variants(profile: ProfileName) -> Vec<Variant> {
     let mut variants = Vec::new();
@@ -70,6 +71,10 @@ pub fn variants(profile: ProfileName) -> Vec<Variant> {
                 });
             }
         }
+    }
+    // The joint model follows no habits of the reference.
+    if profile == ProfileName::Paper {
+        variants.push(Variant::new(ModelName::Joint, None, None, profile));
     }
     variants
 }

@@ -86,6 +86,7 @@ fn setting_names() -> Vec<String> {
 fn upper(model: ModelName) -> String {
     match model {
         ModelName::Baseline => "Baseline".to_owned(),
+        ModelName::Joint => "Joint".to_owned(),
         other => other.to_string().to_uppercase(),
     }
 }
@@ -207,12 +208,14 @@ fn floor(results: &Results, sets: &[Vec<String>]) -> Series {
 }
 
 fn against_bound(results: &Results, sets: &[Vec<String>]) -> Vec<Series> {
-    let mut all = MODELS
+    let mut all: Vec<Series> = MODELS
+        .into_iter()
+        .chain([ModelName::Joint])
         .map(|m| {
             let variant = Variant::new(m, None, None, ProfileName::Paper);
             series(results, upper(m), variant, sets, |t| t.triple_argmax)
         })
-        .to_vec();
+        .collect();
     all.push(bound(results, sets));
     all.push(floor(results, sets));
     all

@@ -8,11 +8,12 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::paper::figure::{Form, Point};
 
 /// Okabe and Ito's colours, which people with any colour vision tell apart, darkest uses first.
-pub const COLOURS: [RGBColor; 6] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
     RGBColor(0x00, 0x9e, 0x73),
     RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0xe6, 0x9f, 0x00),
     RGBColor(0x00, 0x00, 0x00),
     RGBColor(0x99, 0x99, 0x99),
 ];
@@ -100,6 +101,10 @@ impl<B: DrawingBackend> Sheet<B> {
                 area.draw(&Cross::new((x, y), r, stroke))
             }
             4 => {
+                let stroke = colour.stroke_width(self.px(1));
+                area.draw(&Rectangle::new([(x - r, y - r), (x + r, y + r)], stroke))
+            }
+            5 => {
                 let diamond = vec![
                     (x, y - r - 1),
                     (x + r + 1, y),

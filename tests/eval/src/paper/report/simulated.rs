@@ -6,13 +6,14 @@ use crate::paper::{aligned, unaligned};
 use crate::score::Tally;
 use crate::variant::{ModelName, ProfileName, Variant};
 
-/// Whole intents of M3 beside the reference's and the bound.
+/// Whole intents of M3 beside the reference's, the joint model's and the bound.
 pub fn side_by_side(material: &Material<'_>) -> String {
     let mut rows = String::new();
     for level in 0..5 {
         for (name, sets) in [("aligned", aligned(level)), ("unaligned", unaligned(level))] {
             let of = |profile| Variant::new(ModelName::M3, None, None, profile);
             let argmax = |profile| share(material, &sets, of(profile), |t| t.triple_argmax);
+            let joint = Variant::new(ModelName::Joint, None, None, ProfileName::Paper);
             let recorded = material.recorded;
             let reference = recorded.and_then(|r| r.accuracy(&sets, of(ProfileName::Reference)));
             let bound = material.results.bound(&sets);
@@ -21,6 +22,7 @@ pub fn side_by_side(material: &Material<'_>) -> String {
                 cell(argmax(ProfileName::Paper)),
                 cell(argmax(ProfileName::Reference)),
                 cell(reference.map(|a| a.triple_argmax)),
+                cell(share(material, &sets, joint, |t| t.triple_argmax)),
                 cell(bound.map(|b| b.percent(b.triple))),
                 cell(recorded.and_then(|r| r.bound(&sets))),
                 cell(bound.map(|b| b.percent(b.floor))),
@@ -32,6 +34,7 @@ pub fn side_by_side(material: &Material<'_>) -> String {
         "M3, paper's text",
         "M3, reference's habits",
         "Reference, recorded",
+        "Joint",
         "Bayes bound",
         "Bound, recorded",
         "No signal",
