@@ -47,6 +47,9 @@ use utter::Utterer;
 /// At most this many commands of one utterance are queued.
 pub const QUEUE: usize = 16;
 
+/// How often something wrong may be done of what was heard, unless the user says otherwise.
+pub const RISK: f64 = 0.01;
+
 /// One command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Command {
@@ -103,6 +106,8 @@ pub struct Listener<'a> {
     guesser: Guesser,
     /// How sure a word is.
     pub uncertainty: Uncertainty,
+    /// How often something wrong may be done of what was heard, 0..1; [`RISK`] unless it is set.
+    pub risk: f64,
 }
 
 impl<'a> Listener<'a> {
@@ -127,6 +132,7 @@ impl<'a> Listener<'a> {
             table,
             guesser,
             uncertainty: Uncertainty::default(),
+            risk: RISK,
         }
     }
 

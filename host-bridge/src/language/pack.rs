@@ -172,6 +172,10 @@ pub struct Speech {
     pub preposition: Vec<String>,
     /// In place of a preposition and a storage.
     pub place: Vec<String>,
+    /// The answer that it is so.
+    pub yes: Vec<String>,
+    /// The answer that it is not so.
+    pub no: Vec<String>,
 }
 
 /// The grammar words of a language.

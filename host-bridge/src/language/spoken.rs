@@ -6,15 +6,12 @@
 
 use deictic_core::category::Category;
 use deictic_core::large::{OPTIONS, Sentence, Word};
+use deictic_core::math::argmax;
 use deictic_core::sentence::LANGUAGE;
 use serde::Deserialize;
 
 use super::error::LanguageError;
 use super::{Command, Listener, Utterance};
-
-/// Above this share of alternatives that are no commands the person is asked to say it again: one
-/// alternative in four that forbids is no basis for moving.
-const IDLE: f64 = 0.25;
 
 /// What was heard of one utterance.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -84,7 +81,9 @@ impl Spoken {
 }
 
 impl Listener<'_> {
-    /// Understands what was heard.
+    /// Understands what was heard. Whatever has a probability above [`Listener::risk`] stays in
+    /// question: options that do are equally likely, for the hand, the scene or the person to choose
+    /// from, and what may have been no command at all is to be said again.
     ///
     /// # Errors
     /// As [`Listener::understand`] when no alternative is understood, and
@@ -116,7 +115,7 @@ impl Listener<'_> {
             return Ok(best.clone());
         }
         // Stopping harms nobody, so it needs no such caution.
-        if idle > IDLE * all && !self.is_stop(best) {
+        if idle > self.risk * all && !self.is_stop(best) {
             let text = spoken
                 .alternatives
                 .first()
@@ -134,7 +133,7 @@ impl Listener<'_> {
             let at = alike
                 .iter()
                 .filter_map(|(u, share)| Some((u.commands.get(i)?, *share)));
-            command.sentence = mix(&at.collect::<Vec<_>>())?;
+            command.sentence = mix(&at.collect::<Vec<_>>(), self.risk)?;
         }
         Ok(mixed)
     }
@@ -162,13 +161,18 @@ fn same(a: &Utterance, b: &Utterance) -> bool {
 }
 
 /// One sentence of several: every word's likelihoods and category probabilities by the shares of the
-/// sentences that have it.
-fn mix(sentences: &[(&Command, f64)]) -> Result<Sentence, LanguageError> {
+/// sentences that have it. The options that are named with more than `risk` all become as likely as
+/// can be.
+fn mix(sentences: &[(&Command, f64)], risk: f64) -> Result<Sentence, LanguageError> {
+    if let [(only, _)] = sentences {
+        return Ok(only.sentence.clone());
+    }
     let all: f64 = sentences.iter().map(|s| s.1).sum();
     let mut mixed = Sentence::new(LANGUAGE);
     for category in (0..Category::LIMIT).filter_map(Category::from_index) {
         let mut likelihoods = [0.0_f64; OPTIONS];
         let mut categories = [0.0_f64; Category::LIMIT];
+        let mut named = [0.0_f64; OPTIONS];
         let (mut options, mut used, mut share, mut quantity) = (0, 0, 0.0, None);
         for (command, p) in sentences {
             let mut words = command.sentence.words().iter();
@@ -179,6 +183,8 @@ fn mix(sentences: &[(&Command, f64)]) -> Result<Sentence, LanguageError> {
             options = word.likelihoods().len();
             used = used.max(word.categories().len());
             quantity = quantity.or(word.quantity());
+            let best = argmax(word.likelihoods()).and_then(|best| named.get_mut(best));
+            best.into_iter().for_each(|sum| *sum += p);
             let into = likelihoods.iter_mut().zip(word.likelihoods());
             into.for_each(|(sum, l)| *sum += p * f64::from(*l));
             let into = categories.iter_mut().zip(word.categories());
@@ -187,7 +193,10 @@ fn mix(sentences: &[(&Command, f64)]) -> Result<Sentence, LanguageError> {
         if share <= 0.0 {
             continue;
         }
-        let likelihoods = likelihoods.map(|l| (l / share).min(1.0) as f32);
+        let mut likelihoods = likelihoods.map(|l| (l / share).min(1.0) as f32);
+        let doubtful = likelihoods.iter_mut().zip(named);
+        let doubtful = doubtful.filter(|(_, named)| *named > risk * share);
+        doubtful.for_each(|(likelihood, _)| *likelihood = 1.0);
         let categories = categories.map(|c| (c / all).min(1.0) as f32);
         let word = Word::new(
             categories.get(..used).unwrap_or_default(),

@@ -9,6 +9,7 @@ mod parity;
 mod reliability;
 mod score;
 mod sentences;
+mod speech;
 mod speed;
 
 use clap::Subcommand;
@@ -25,6 +26,7 @@ pub enum Command {
     Reliability(reliability::Reliability),
     Score(score::Score),
     Sentences(sentences::Sentences),
+    Speech(speech::Speech),
     Speed(speed::Speed),
 }
 
@@ -41,6 +43,7 @@ impl Command {
             Self::Reliability(command) => command.run(),
             Self::Score(command) => command.run(),
             Self::Sentences(command) => command.run(),
+            Self::Speech(command) => command.run(),
             Self::Speed(command) => command.run(),
         }
     }

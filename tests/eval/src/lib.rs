@@ -31,5 +31,6 @@ pub mod score;
 pub mod sensing;
 pub mod setups;
 pub mod situation;
+pub mod speech;
 pub mod speed;
 pub mod variant;

@@ -1,10 +1,15 @@
 //! Speech through a recogniser's own process: what it may hear follows from the vocabulary, what it
 //! heard comes back as alternatives with probabilities.
 //!
-//! [`pocketsphinx`] drives Debian's packaged recogniser with its packaged English model; any other
-//! is plugged in by its lines ([`crate::language::Spoken::read`]).
+//! [`pocketsphinx`] drives Debian's packaged recogniser with its packaged English model on sound from
+//! a [`source`]; any other recogniser is plugged in by its lines ([`crate::language::Spoken::read`]).
 
 pub mod jsgf;
 pub mod pocketsphinx;
+pub mod pronounce;
+pub mod segment;
+pub mod sound;
+pub mod source;
 
-pub use pocketsphinx::{Pocketsphinx, SpeechError};
+pub use pocketsphinx::{Expected, Pocketsphinx, SpeechError, samples};
+pub use source::{Ears, Heard, Source};

@@ -1,14 +1,18 @@
-//! Debian's pocketsphinx, run once per recording, with a grammar made from the vocabulary.
+//! Debian's pocketsphinx, run once per meaning that comes into question, on one recording.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 use tempfile::TempDir;
 
-use super::jsgf::{Jsgf, grammar};
+use super::jsgf::{Only, Phrases};
+use super::pronounce::Dictionary;
+use super::sound::{self, Colour};
 use crate::language::pack::Pack;
 use crate::language::{LanguageError, Spoken};
 use crate::vocabulary::Lexicon;
@@ -16,34 +20,16 @@ use crate::vocabulary::Lexicon;
 /// Where Debian's packages `pocketsphinx-en-us` puts the model.
 pub const MODEL: &str = "/usr/share/pocketsphinx/model/en-us";
 
-/// Alternatives that are asked for; wordings of one meaning take most of them.
-const ALTERNATIVES: usize = 120;
-
-/// How far a score must be behind for its text to be e times less probable, in a quiet recording.
-/// The scores are ln of the acoustic likelihood in units of 0.1; taken as they are they would be far
-/// too sure, as frames of 10 ms are not independent.
-const SCALE: f64 = 250.0;
-
-/// From this many dB between the loudest and the quietest moment on a recording counts as quiet.
-const QUIET: f64 = 40.0;
-
-/// Noise makes scores alike for no good reason: at 10 dB a third of the likeliest texts are wrong.
-/// So they count the less, the less the voice stands out.
-fn scale(stats: &str) -> f64 {
-    let figure = |name: &str| {
-        let line = stats.lines().find(|l| l.starts_with(name))?;
-        line.split_whitespace().nth(3)?.parse::<f64>().ok()
-    };
-    let (Some(loud), Some(quiet)) = (figure("RMS Pk dB"), figure("RMS Tr dB")) else {
-        return SCALE;
-    };
-    // A silence of zeros has minus infinity.
-    let range = (loud - quiet).clamp(QUIET / 5.0, QUIET);
-    SCALE * (QUIET / range) * (QUIET / range)
-}
+/// How far a score must be behind for its text to be e times less probable. Scores are ln of the
+/// acoustic likelihood in units of 0.1; taken as they are they would be far too sure, as frames of
+/// 10 ms are not independent. Fitted by `deictic-eval speech --fit` on voices that are not scored.
+pub const SCALE: f64 = 100.0;
 
 /// How loud the noise is that is added to a recording, of full scale.
-const COMFORT: &str = "0.02";
+const COMFORT: f32 = 0.02;
+
+/// Texts further than this behind the best cannot count.
+const FARTHEST: f64 = 12.0;
 
 /// Why nothing was heard.
 #[derive(Debug, thiserror::Error)]
@@ -52,7 +38,7 @@ pub enum SpeechError {
     #[error("{program}: {why}")]
     Program {
         /// Which.
-        program: &'static str,
+        program: String,
         /// What it said.
         why: String,
     },
@@ -78,7 +64,8 @@ impl SpeechError {
     pub fn remedy(&self) -> String {
         match self {
             Self::Program { .. } => {
-                "install Debian's packages pocketsphinx, pocketsphinx-en-us and sox".into()
+                "install Debian's packages pocketsphinx, pocketsphinx-en-us, sox and alsa-utils"
+                    .into()
             }
             Self::File { .. } => "check that the file is there and can be read".into(),
             Self::NoGrammar => "plug in a recogniser of that language by its lines".into(),
@@ -87,33 +74,64 @@ impl SpeechError {
     }
 }
 
-/// The recogniser with its grammar.
+/// What somebody is expected to say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// A command.
+    Command,
+    /// The answer to a question: a name, yes or no.
+    Answer,
+}
+
+/// The recogniser with its grammars.
 #[derive(Debug)]
 pub struct Pocketsphinx {
     folder: TempDir,
     model: PathBuf,
     left_out: Vec<String>,
+    commands: Vec<PathBuf>,
+    answers: Vec<PathBuf>,
+    takes: AtomicUsize,
 }
 
 impl Pocketsphinx {
-    /// Makes the grammar of a vocabulary for the model in `model`, mostly [`MODEL`].
+    /// Makes the grammars of a vocabulary for the model in `model`, mostly [`MODEL`]. Names that the
+    /// model's dictionary does not have are pronounced by espeak-ng where it is installed.
     ///
     /// # Errors
     /// [`SpeechError`] when the model is not there, or has none of the vocabulary's words.
     pub fn new(lexicon: &Lexicon, pack: &Pack, model: &Path) -> Result<Self, SpeechError> {
-        let dictionary = read(&model.join("cmudict-en-us.dict"))?;
-        let known: HashSet<_> = dictionary
-            .lines()
-            .filter_map(|l| l.split(' ').next())
-            .collect();
-        let Jsgf { text, left_out } =
-            grammar(lexicon, pack, |word| known.contains(word)).ok_or(SpeechError::NoGrammar)?;
+        let path = model.join("cmudict-en-us.dict");
+        let text = fs::read_to_string(&path).map_err(file(&path))?;
+        let mut dictionary = Dictionary::read(&text);
+        let pronounced = |word: &str| {
+            if !dictionary.knows(word) {
+                dictionary.learn(word);
+            }
+            dictionary.knows(word)
+        };
+        let phrases = Phrases::new(lexicon, pack, pronounced).ok_or(SpeechError::NoGrammar)?;
         let folder = TempDir::new().map_err(file(Path::new("temporary folder")))?;
-        write(&folder.path().join("commands.gram"), &text)?;
+        let known = phrases.words().into_iter().filter(|w| dictionary.knows(w));
+        write(&folder.path().join("words"), &dictionary.part(known))?;
+        let mut files = 0;
+        let mut all = |list: Vec<Only>| {
+            let grammars = list.into_iter().filter_map(|only| phrases.grammar(only));
+            let written = grammars.map(|text| {
+                files += 1;
+                let path = folder.path().join(format!("{files}.gram"));
+                write(&path, &text).map(|()| path)
+            });
+            written.collect::<Result<Vec<_>, _>>()
+        };
+        let (commands, answers) = (all(phrases.commands())?, all(phrases.answers())?);
         Ok(Self {
             folder,
             model: model.to_owned(),
-            left_out,
+            left_out: phrases.left_out().to_vec(),
+            commands,
+            answers,
+            takes: AtomicUsize::new(0),
         })
     }
 
@@ -123,86 +141,127 @@ impl Pocketsphinx {
         &self.left_out
     }
 
-    /// What is said in a recording, any that sox reads.
+    /// What is said in one utterance, samples of [`sound::RATE`]. A tenth of a second of one core
+    /// per option of the vocabulary.
     ///
     /// # Errors
     /// [`SpeechError`].
-    pub fn hear(&self, recording: &Path) -> Result<Spoken, SpeechError> {
-        let at = |name: &str| self.folder.path().join(name);
-        fs::metadata(recording).map_err(file(recording))?;
-        // Silence around it gives the recogniser's noise estimate something to hold on to, and a
-        // little noise keeps a perfectly silent silence from being all that it hears.
-        let form = ["-r", "16000", "-c", "1", "-b", "16"];
-        let pad = ["norm", "-3", "pad", "0.4", "0.6"];
-        let noise = ["synth", "pinknoise", "vol", COMFORT];
-        let sox = |change: &dyn Fn(&mut Command)| {
-            let mut command = Command::new("sox");
-            command.arg("-R");
-            change(&mut command);
-            run("sox", &mut command).map(drop)
+    pub fn hear(&self, samples: &[i16], expected: Expected) -> Result<Spoken, SpeechError> {
+        let scores = self.scores(samples, expected)?;
+        Ok(Self::weigh(&scores, SCALE)?)
+    }
+
+    /// What [`Pocketsphinx::scores`] say, if a score must be `scale` behind for its text to be e
+    /// times less probable.
+    ///
+    /// # Errors
+    /// [`LanguageError::Empty`] when nothing was heard.
+    pub fn weigh(scores: &[(String, f64)], scale: f64) -> Result<Spoken, LanguageError> {
+        let top = scores.iter().map(|s| s.1).fold(f64::NEG_INFINITY, f64::max);
+        let near = scores.iter().filter(|s| s.1 > top - FARTHEST * scale);
+        Spoken::of_scores(near.cloned().collect(), scale)
+    }
+
+    /// The best text under every restriction, with the recogniser's score.
+    ///
+    /// # Errors
+    /// [`SpeechError`].
+    pub fn scores(
+        &self,
+        samples: &[i16],
+        expected: Expected,
+    ) -> Result<Vec<(String, f64)>, SpeechError> {
+        let take = self.takes.fetch_add(1, Ordering::Relaxed);
+        let folder = self.folder.path().join(format!("take{take}"));
+        fs::create_dir(&folder).map_err(file(&folder))?;
+        let said = folder.join("said.raw");
+        let samples = sound::prepared(samples, Colour::Pink, COMFORT);
+        sound::write(&said, &samples).map_err(file(&said))?;
+        write(&folder.join("list"), "said\n")?;
+        let grammars = match expected {
+            Expected::Command => &self.commands,
+            Expected::Answer => &self.answers,
         };
-        let stats = run(
-            "sox",
-            Command::new("sox").arg(recording).args(["-n", "stats"]),
-        )?;
-        let scale = scale(&stats);
-        sox(&|c| {
-            c.arg(recording).args(form).arg(at("voice.wav")).args(pad);
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut heard = Vec::new();
+            while let Some(grammar) = grammars.get(next.fetch_add(1, Ordering::Relaxed)) {
+                heard.extend(self.best(&folder, grammar)?);
+            }
+            Ok(heard)
+        };
+        let workers = thread::available_parallelism().map_or(1, usize::from);
+        let heard = thread::scope(|scope| {
+            let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+            let results = workers.into_iter().filter_map(|w| w.join().ok());
+            results.collect::<Result<Vec<_>, SpeechError>>()
         })?;
-        sox(&|c| {
-            c.arg(at("voice.wav")).arg(at("noise.wav")).args(noise);
-        })?;
-        sox(&|c| {
-            c.args(["-m", "-v", "1"]).arg(at("voice.wav"));
-            c.args(["-v", "1"]).arg(at("noise.wav")).arg(at("said.wav"));
-        })?;
-        write(&at("list"), "said\n")?;
-        // A file left from before must not pass for what was heard now.
-        let _ = fs::remove_file(at("said.hyp"));
+        // A folder that stays is removed with its parent.
+        let _ = fs::remove_dir_all(&folder);
+        let mut best: HashMap<String, f64> = HashMap::new();
+        for (text, score) in heard.into_iter().flatten() {
+            let known = best.entry(text).or_insert(score);
+            *known = known.max(score);
+        }
+        let mut all: Vec<_> = best.into_iter().collect();
+        all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        Ok(all)
+    }
+
+    /// The best text of one grammar, if any fits at all.
+    fn best(&self, take: &Path, grammar: &Path) -> Result<Option<(String, f64)>, SpeechError> {
+        let name = grammar.file_stem().unwrap_or_default().to_string_lossy();
+        let heard = take.join(format!("{name}.hyp"));
         let mut command = Command::new("pocketsphinx_batch");
         let paths = [
-            ("-cepdir", self.folder.path().to_owned()),
-            ("-ctl", at("list")),
+            ("-cepdir", take.to_owned()),
+            ("-ctl", take.join("list")),
             ("-hmm", self.model.join("en-us")),
-            ("-dict", self.model.join("cmudict-en-us.dict")),
-            ("-jsgf", at("commands.gram")),
-            ("-nbestdir", self.folder.path().to_owned()),
-            ("-hyp", at("best")),
+            ("-dict", self.folder.path().join("words")),
+            ("-jsgf", grammar.to_owned()),
+            ("-hyp", heard.clone()),
         ];
         for (option, path) in paths {
             command.arg(option).arg(path);
         }
-        let count = ALTERNATIVES.to_string();
-        let how = [
-            "-adcin",
-            "yes",
-            "-cepext",
-            ".wav",
-            "-cmn",
-            "current",
-            "-bestpath",
-            "yes",
-            "-dither",
-            "yes",
-        ];
-        command
-            .args(how)
-            .args(["-nbest", count.as_str(), "-logfn", "/dev/null"]);
+        // Without -compallsen scores are relative to the best sound that the grammar has a use for,
+        // so that those of different grammars cannot be compared.
+        command.args(["-adcin", "yes", "-cepext", ".raw", "-compallsen", "yes"]);
+        command.args(["-bestpath", "yes", "-dither", "no", "-logfn", "/dev/null"]);
         run("pocketsphinx_batch", &mut command)?;
-        let lines = fs::read_to_string(at("said.hyp")).unwrap_or_default();
-        let scores = lines.lines().filter_map(|line| {
-            let (text, score) = line.trim().rsplit_once(' ')?;
-            Some((text.to_owned(), score.parse().ok()?))
-        });
-        let mut scores: Vec<(String, f64)> = scores.collect();
-        scores.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        scores.dedup_by(|a, b| a.0 == b.0);
-        Ok(Spoken::of_scores(scores, scale)?)
+        // "pick the cup (said -4711)"
+        let line = fs::read_to_string(&heard).map_err(file(&heard))?;
+        Ok(line.trim_end().strip_suffix(')').and_then(|line| {
+            let (text, score) = line.rsplit_once(' ')?;
+            let (text, _) = text.rsplit_once(" (")?;
+            Some((text.trim().to_owned(), score.parse().ok()?))
+        }))
     }
 }
 
-fn read(path: &Path) -> Result<String, SpeechError> {
-    fs::read_to_string(path).map_err(file(path))
+/// The samples of a recording, any that sox reads.
+///
+/// # Errors
+/// [`SpeechError`].
+pub fn samples(recording: &Path) -> Result<Vec<i16>, SpeechError> {
+    fs::metadata(recording).map_err(file(recording))?;
+    let rate = sound::RATE.to_string();
+    let mut command = Command::new("sox");
+    command.arg("-R").arg(recording);
+    command.args([
+        "-t",
+        "raw",
+        "-r",
+        rate.as_str(),
+        "-c",
+        "1",
+        "-b",
+        "16",
+        "-e",
+        "signed",
+        "-",
+    ]);
+    run("sox", &mut command).map(|bytes| sound::of_bytes(&bytes))
 }
 
 fn write(path: &Path, text: &str) -> Result<(), SpeechError> {
@@ -214,18 +273,18 @@ fn file(path: &Path) -> impl FnOnce(io::Error) -> SpeechError + use<> {
     move |source| SpeechError::File { path, source }
 }
 
-/// Runs a program; what it said on standard error.
-fn run(program: &'static str, command: &mut Command) -> Result<String, SpeechError> {
-    let failed = |why: String| SpeechError::Program { program, why };
-    let command = command
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped());
+/// Runs a program; what it wrote on standard output.
+fn run(program: &str, command: &mut Command) -> Result<Vec<u8>, SpeechError> {
+    let failed = |why: String| SpeechError::Program {
+        program: program.to_owned(),
+        why,
+    };
+    let command = command.stdin(Stdio::null()).stderr(Stdio::piped());
     let output = command.output().map_err(|e| failed(e.to_string()))?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
     if output.status.success() {
-        return Ok(said);
+        return Ok(output.stdout);
     }
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
     Err(failed(
         said.lines().last().unwrap_or("it failed").to_owned(),
     ))
