@@ -1,11 +1,14 @@
-//! What a person types, given to a session; and how it ended.
+//! What a person types and speaks, given to a session; and how it ended.
+
+use std::collections::VecDeque;
 
 use deictic_core::decide::Outcome;
+use deictic_core::sentence::{GESTURE, LANGUAGE};
 
 use super::printer::Printer;
 use crate::answering::{Reply, reply};
 use crate::explain;
-use crate::language::{Listener, text_of};
+use crate::language::{LanguageError, Listener, Spoken, text_of};
 use crate::robot::Event;
 use crate::sensor::Sensors;
 use crate::session::{Happening, Session};
@@ -24,11 +27,42 @@ pub enum Ending {
 /// What is between said and shown in a line.
 const BETWEEN: &str = "//";
 
-/// Takes what is typed to a session.
+/// A share of what may have been heard that is enough to stand still.
+const MAY_BE_STOP: f64 = 0.2;
+
+/// What waits for its turn.
+enum Input {
+    Line(String),
+    Spoken(Spoken),
+}
+
+impl Input {
+    /// What it says, in words.
+    fn text(&self) -> &str {
+        match self {
+            Self::Line(text) => text,
+            Self::Spoken(spoken) => spoken.best(),
+        }
+    }
+
+    /// The modality that it is, where it is only one.
+    fn modality(&self) -> Option<u8> {
+        match self {
+            Self::Spoken(_) => Some(LANGUAGE),
+            Self::Line(text) => match text.split_once(BETWEEN) {
+                None => Some(LANGUAGE),
+                Some((said, _)) if said.trim().is_empty() => Some(GESTURE),
+                Some(_) => None,
+            },
+        }
+    }
+}
+
+/// Takes what is typed and spoken to a session.
 pub struct Conversation<'a> {
     listener: &'a Listener<'a>,
     printer: Printer,
-    waiting: std::collections::VecDeque<String>,
+    waiting: VecDeque<Input>,
     last: Ending,
     quits: bool,
     /// What observes what is said and shown; without any it is observed as it was typed.
@@ -41,7 +75,7 @@ impl<'a> Conversation<'a> {
         Self {
             listener,
             printer,
-            waiting: std::collections::VecDeque::new(),
+            waiting: VecDeque::new(),
             last: Ending::Done,
             quits: false,
             sensors: None,
@@ -60,7 +94,7 @@ impl<'a> Conversation<'a> {
             }
         };
         if mentions_stop(text, session.lexicon()) {
-            self.waiting.clear();
+            self.drop_waiting();
             session.stop();
             self.typed(session, text);
         } else if text == "cancel" {
@@ -69,17 +103,67 @@ impl<'a> Conversation<'a> {
             self.waiting.clear();
             session.cancel();
         } else if !text.is_empty() {
-            self.waiting.push_back(text.to_owned());
+            self.waiting.push_back(Input::Line(text.to_owned()));
         }
     }
 
-    /// Takes the next line when the session is ready for it.
+    /// Takes an utterance that was heard. One that may have been stop makes the robot stand still at
+    /// once.
+    pub fn spoken(&mut self, session: &mut Session<'_>, spoken: Spoken) {
+        let lexicon = session.lexicon();
+        let alternatives = spoken.alternatives.iter();
+        let stop = alternatives.filter(|(text, _)| mentions_stop(text, lexicon));
+        if stop.map(|(_, share)| share).sum::<f64>() > MAY_BE_STOP {
+            self.drop_waiting();
+            session.stop();
+        }
+        self.waiting.push_back(Input::Spoken(spoken));
+    }
+
+    fn drop_waiting(&mut self) {
+        let texts: Vec<_> = self
+            .waiting
+            .drain(..)
+            .map(|w| w.text().to_owned())
+            .collect();
+        self.printer.dropped(&texts);
+    }
+
+    /// Takes the next input when the session is ready for it: when nothing is going on, or when the
+    /// unit waits for just that modality.
     pub fn next(&mut self, session: &mut Session<'_>) {
-        if session.is_idle()
-            && session.unit().is_there()
-            && let Some(text) = self.waiting.pop_front()
-        {
-            self.typed(session, &text);
+        if !session.unit().is_there() {
+            return;
+        }
+        let fits = |input: &Input| input.modality().is_some_and(|m| session.is_waiting_for(m));
+        let ready = match session.is_idle() {
+            true => Some(0),
+            false => self.waiting.iter().position(fits),
+        };
+        match ready.and_then(|at| self.waiting.remove(at)) {
+            Some(Input::Line(text)) => self.typed(session, &text),
+            Some(Input::Spoken(spoken)) => self.heard(session, &spoken),
+            None => {}
+        }
+    }
+
+    fn heard(&mut self, session: &mut Session<'_>, spoken: &Spoken) {
+        let text = spoken.best();
+        if session.question().is_some() {
+            match spoken.certain(self.listener.risk) {
+                Some(text) => self.take(session, Some(text), None),
+                None => {
+                    let error = LanguageError::Unclear { text: text.into() };
+                    self.printer.not_understood(&error, error.remedy());
+                }
+            }
+            return;
+        }
+        self.last = Ending::NotDone;
+        self.printer.spoken(spoken);
+        match self.listener.hear(spoken) {
+            Ok(utterance) => self.give(session, understanding::of(text, utterance), None),
+            Err(error) => self.printer.not_understood(&error, error.remedy()),
         }
     }
 

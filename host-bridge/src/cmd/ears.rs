@@ -4,10 +4,10 @@ use clap::Args;
 use miette::Result;
 
 use super::advice;
+use crate::language::Listener;
 use crate::language::pack::Pack;
 use crate::language::speech::pocketsphinx::MODEL;
 use crate::language::speech::{Ears, Pocketsphinx, Source};
-use crate::language::Listener;
 use crate::vocabulary::Lexicon;
 
 /// Where speech comes from, and with what caution it is taken.

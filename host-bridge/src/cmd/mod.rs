@@ -2,6 +2,7 @@
 
 mod conversation;
 pub mod decide;
+mod ears;
 mod files;
 mod lines;
 mod log;

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::paint;
 use crate::explain::{self, Advice};
+use crate::language::Spoken;
 use crate::link::Address;
 use crate::report;
 use crate::robot::Event;
@@ -128,6 +129,35 @@ impl Printer {
         self.line("said", or_nothing(said));
         self.line("shown", or_nothing(shown));
         self.object(&json!({ "event": "heard", "said": said, "shown": shown }));
+    }
+
+    /// What was heard, the likeliest first.
+    pub fn spoken(self, spoken: &Spoken) {
+        let share = |(text, share): &(String, f64)| format!("{text} {:.0} %", share * 100.0);
+        let near = spoken
+            .alternatives
+            .iter()
+            .filter(|(_, share)| *share >= 0.01);
+        let texts: Vec<_> = near.map(share).collect();
+        self.line("heard", texts.join(", "));
+        let alternatives = spoken
+            .alternatives
+            .iter()
+            .map(|(text, share)| json!([text, share]));
+        let alternatives: Vec<_> = alternatives.collect();
+        self.object(&json!({
+            "event": "heard", "said": spoken.best(), "alternatives": alternatives,
+        }));
+    }
+
+    /// What is not taken any more, as a stop was given.
+    pub fn dropped(self, texts: &[String]) {
+        for text in texts {
+            self.line("dropped", format!("\"{text}\", as a stop was given"));
+        }
+        if !texts.is_empty() {
+            self.object(&json!({ "event": "dropped", "count": texts.len(), "said": texts }));
+        }
     }
 
     /// What was answered to a question.

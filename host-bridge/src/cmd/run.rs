@@ -12,6 +12,7 @@ use deictic_core::time::Micros;
 use miette::{Context, IntoDiagnostic, Result};
 
 use super::conversation::{Conversation, Ending};
+use super::ears::Speech;
 use super::files::Files;
 use super::lines::{Lines, Typed};
 use super::log::Log;
@@ -21,6 +22,7 @@ use super::profile::Choice;
 use super::scenes::Scenes;
 use super::{advice, paint};
 use crate::language::Listener;
+use crate::language::speech::Heard;
 use crate::link::{self, Address};
 use crate::robot::{self, address::reach};
 use crate::scene::SceneLine;
@@ -39,6 +41,9 @@ const TURN: Duration = Duration::from_millis(10);
 /// > put it there // put-into drawer  said and shown
 /// > stop
 /// ```
+///
+/// With --speech, a person speaks, and what the hand shows meanwhile is typed, or comes from another
+/// program, as `// pick can`.
 ///
 /// Without --say and --show, lines are read from standard input until its end or `quit`. What is
 /// shown is typed as in `deictic decide --show`. With them, one command is given; the exit code is 0
@@ -71,11 +76,13 @@ pub struct Run {
     #[arg(long, value_name = "TEXT")]
     show: Option<String>,
     #[command(flatten)]
+    speech: Speech,
+    #[command(flatten)]
     choice: Choice,
     /// How long the unit waits for what is shown after it heard what is said, and the other way
-    /// round, in milliseconds
-    #[arg(long, value_name = "MS", default_value_t = 1_000)]
-    window: u64,
+    /// round, in milliseconds; 1000, and 3000 with speech, which is heard a while after it was said
+    #[arg(long, value_name = "MS")]
+    window: Option<u64>,
     /// Observe what is said and shown through made-up sensors with this much noise
     #[arg(long, value_enum, value_name = "LEVEL")]
     noise: Option<Noise>,
@@ -102,10 +109,11 @@ impl Run {
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<u8> {
         let (lexicon, table) = self.files.read()?;
-        let listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        let mut ears = self.speech.open(&lexicon, &mut listener)?;
         let configuration = Configuration {
             profile: self.choice.profile(),
-            window: Micros::from_millis(self.window),
+            window: Micros::from_millis(self.window()),
             explain: self.explain,
             ..Configuration::DEFAULT
         };
@@ -134,8 +142,8 @@ impl Run {
         let once = lines.is_none();
         let mut prompted = false;
         loop {
-            if let Some(lines) = &lines {
-                match lines.next() {
+            if let Some(typed) = &lines {
+                match typed.next() {
                     Typed::Line(line) => {
                         prompted = false;
                         if SceneLine::is_meant(&line) {
@@ -144,12 +152,26 @@ impl Run {
                         }
                         conversation.line(&mut session, &line);
                     }
+                    // Whoever speaks need not type.
+                    Typed::End if ears.is_some() => lines = None,
                     Typed::End => conversation.quit(),
                     Typed::Nothing => {}
                 }
             }
             scenes.turn(&mut session);
             pictures.turn(&session);
+            if let Some(open) = &ears {
+                open.expect(session.question().is_some());
+                match open.next() {
+                    Heard::Spoken(spoken) => conversation.spoken(&mut session, spoken),
+                    Heard::Nothing(e) => printer.not_understood(&e, e.remedy()),
+                    Heard::Silence => {}
+                    Heard::End => {
+                        ears = None;
+                        conversation.quit();
+                    }
+                }
+            }
             conversation.next(&mut session);
             match interrupts.swap(0, Ordering::Relaxed) {
                 0 => {}
@@ -175,10 +197,15 @@ impl Run {
                 None => {}
             }
             // A question is answered from standard input, whoever asked the first command.
-            if session.question().is_some() && lines.is_none() {
+            if session.question().is_some() && lines.is_none() && ears.is_none() {
                 lines = Some(Lines::of_stdin());
             }
         }
+    }
+
+    fn window(&self) -> u64 {
+        let usual = if self.speech.is_on() { 3_000 } else { 1_000 };
+        self.window.unwrap_or(usual)
     }
 
     fn prompts(&self) -> bool {

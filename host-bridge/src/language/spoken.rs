@@ -69,6 +69,19 @@ impl Spoken {
         Self::of_shares(scores.into_iter().map(share).collect())
     }
 
+    /// The likeliest text.
+    #[must_use]
+    pub fn best(&self) -> &str {
+        self.alternatives.first().map_or("", |a| a.0.as_str())
+    }
+
+    /// The likeliest text, if all others together are no likelier than `risk`.
+    #[must_use]
+    pub fn certain(&self, risk: f64) -> Option<&str> {
+        let best = self.alternatives.first()?;
+        (best.1 >= 1.0 - risk).then_some(best.0.as_str())
+    }
+
     fn of_shares(mut alternatives: Vec<(String, f64)>) -> Result<Self, LanguageError> {
         let sum: f64 = alternatives.iter().map(|a| a.1).sum();
         if alternatives.is_empty() || sum <= 0.0 {

@@ -189,6 +189,17 @@ impl<'a> Session<'a> {
             && self.happened.is_empty()
     }
 
+    /// Whether the unit waits for what this modality observes, having heard of another.
+    #[must_use]
+    pub fn is_waiting_for(&self, modality: u8) -> bool {
+        self.due.is_some()
+            && self.doing.is_none()
+            && self.question.is_none()
+            && !self.stopping
+            && !self.spoken.is_empty()
+            && self.spoken.iter().all(|s| s.modality() != modality)
+    }
+
     /// Tells the unit what a modality observed, at once. A clear stop stops the robot first.
     ///
     /// # Errors

@@ -23,6 +23,10 @@ impl Setup {
                 "board log: not decoded; optional, `cargo install defmt-print --locked` gets the decoder"
             ),
         }
+        match ensure_speech() {
+            Ok(()) => println!("speech: pocketsphinx"),
+            Err(why) => println!("speech: not here, its tests will be skipped: {why:#}"),
+        }
         println!("All set: try `cargo xtask demo`.");
         Ok(())
     }
@@ -41,4 +45,26 @@ pub fn ensure() -> Result<Toolchain> {
         )?;
     }
     Ok(toolchain)
+}
+
+/// Programs that hear, speak and disturb speech, and the packages they are in.
+const SPEECH: [(&str, &[&str]); 3] = [
+    (
+        "pocketsphinx_batch",
+        &["pocketsphinx", "pocketsphinx-en-us"],
+    ),
+    ("espeak-ng", &["espeak-ng"]),
+    ("sox", &["sox"]),
+];
+
+/// What the tests of speech need; only they do.
+pub fn ensure_speech() -> Result<()> {
+    let missing = SPEECH.iter().filter(|(program, _)| find(program).is_none());
+    let packages: Vec<_> = missing
+        .flat_map(|(_, packages)| packages.iter().map(|&p| p.to_owned()))
+        .collect();
+    if packages.is_empty() {
+        return Ok(());
+    }
+    apt_install(&packages)
 }

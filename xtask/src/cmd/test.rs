@@ -16,6 +16,9 @@ pub struct Test;
 impl Test {
     pub fn run(self) -> Result<()> {
         let toolchain = setup::ensure()?;
+        if let Err(why) = setup::ensure_speech() {
+            eprintln!("tests of speech will be skipped: {why:#}");
+        }
         for (title, mut command) in lints(&toolchain) {
             step(&title);
             process::run(&mut command)?;

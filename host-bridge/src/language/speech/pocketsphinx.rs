@@ -20,10 +20,20 @@ use crate::vocabulary::Lexicon;
 /// Where Debian's packages `pocketsphinx-en-us` puts the model.
 pub const MODEL: &str = "/usr/share/pocketsphinx/model/en-us";
 
-/// How far a score must be behind for its text to be e times less probable. Scores are ln of the
-/// acoustic likelihood in units of 0.1; taken as they are they would be far too sure, as frames of
-/// 10 ms are not independent. Fitted by `deictic-eval speech --fit` on voices that are not scored.
-pub const SCALE: f64 = 100.0;
+/// How far a score must be behind, in a quiet recording, for its text to be e times less probable.
+/// Scores are ln of the acoustic likelihood in units of 0.1; taken as they are they would be far too
+/// sure, as frames of 10 ms are not independent. In quiet, what is wrong is at most some 130 ahead.
+pub const SCALE: f64 = 30.0;
+
+/// From this many dB between the voice and what is behind it a recording counts as quiet.
+const QUIET: f32 = 40.0;
+
+/// Noise makes scores differ for no good reason, so they count the less, the less the voice stands
+/// out ([`sound::range`]): with 20, 10 and 5 dB some 2, 6 and 10 times less than in quiet.
+fn doubt(range: Option<f32>) -> f64 {
+    let range = range.unwrap_or(QUIET).clamp(QUIET / 5.0, QUIET);
+    f64::from(QUIET / range).powf(1.5)
+}
 
 /// How loud the noise is that is added to a recording, of full scale.
 const COMFORT: f32 = 0.02;
@@ -148,15 +158,20 @@ impl Pocketsphinx {
     /// [`SpeechError`].
     pub fn hear(&self, samples: &[i16], expected: Expected) -> Result<Spoken, SpeechError> {
         let scores = self.scores(samples, expected)?;
-        Ok(Self::weigh(&scores, SCALE)?)
+        Ok(Self::weigh(&scores, sound::range(samples), SCALE)?)
     }
 
-    /// What [`Pocketsphinx::scores`] say, if a score must be `scale` behind for its text to be e
-    /// times less probable.
+    /// What [`Pocketsphinx::scores`] say of a recording with this [`sound::range`], if in quiet a
+    /// score must be `scale` behind for its text to be e times less probable.
     ///
     /// # Errors
     /// [`LanguageError::Empty`] when nothing was heard.
-    pub fn weigh(scores: &[(String, f64)], scale: f64) -> Result<Spoken, LanguageError> {
+    pub fn weigh(
+        scores: &[(String, f64)],
+        range: Option<f32>,
+        scale: f64,
+    ) -> Result<Spoken, LanguageError> {
+        let scale = scale * doubt(range);
         let top = scores.iter().map(|s| s.1).fold(f64::NEG_INFINITY, f64::max);
         let near = scores.iter().filter(|s| s.1 > top - FARTHEST * scale);
         Spoken::of_scores(near.cloned().collect(), scale)
@@ -231,10 +246,12 @@ impl Pocketsphinx {
         run("pocketsphinx_batch", &mut command)?;
         // "pick the cup (said -4711)"
         let line = fs::read_to_string(&heard).map_err(file(&heard))?;
-        Ok(line.trim_end().strip_suffix(')').and_then(|line| {
+        let heard = line.trim_end().strip_suffix(')');
+        Ok(heard.and_then(|line| {
             let (text, score) = line.rsplit_once(' ')?;
-            let (text, _) = text.rsplit_once(" (")?;
-            Some((text.trim().to_owned(), score.parse().ok()?))
+            let text = text.rsplit_once(" (")?.0.trim();
+            // A grammar that nothing of the sound fits gives no words, with a score of 0.
+            (!text.is_empty()).then_some((text.to_owned(), score.parse().ok()?))
         }))
     }
 }

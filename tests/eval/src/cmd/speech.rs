@@ -7,6 +7,7 @@ use anyhow::Context;
 use deictic::language::Listener;
 use deictic::language::pack::Pack;
 use deictic::language::speech::pocketsphinx::{MODEL, Pocketsphinx, SCALE};
+use deictic::language::speech::sound::range;
 use deictic::language::speech::{Expected, samples};
 use deictic::vocabulary::Lexicon;
 use deictic_core::profile::Profile;
@@ -55,6 +56,7 @@ struct Heard {
     voice: &'static str,
     level: Option<i32>,
     scores: Vec<(String, f64)>,
+    range: Option<f32>,
     seconds: f64,
 }
 
@@ -71,7 +73,7 @@ impl Speech {
         };
         let heard = self.hear(&lexicon, &pack, &recogniser)?;
         let scales: &[f64] = match self.fit {
-            true => &[50.0, 75.0, 100.0, 140.0, 200.0, 280.0, 400.0],
+            true => &[10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 100.0],
             false => &[SCALE],
         };
         let mut scores = Vec::new();
@@ -114,13 +116,15 @@ impl Speech {
                 for level in LEVELS {
                     let recording = speak(folder.path(), voice, &said, level)?;
                     let began = Instant::now();
-                    let scores = recogniser.scores(&samples(&recording)?, Expected::Command)?;
+                    let sound = samples(&recording)?;
+                    let scores = recogniser.scores(&sound, Expected::Command)?;
                     let said = said.clone();
                     all.push(Heard {
                         said,
                         voice,
                         level,
                         scores,
+                        range: range(&sound),
                         seconds: began.elapsed().as_secs_f64(),
                     });
                     bar.inc(1);
@@ -140,7 +144,7 @@ impl Speech {
     ) -> Score {
         let (mut counts, mut utterances, mut seconds) = ([0_usize; 3], 0, 0.0);
         for h in heard {
-            let answer = match Pocketsphinx::weigh(&h.scores, scale) {
+            let answer = match Pocketsphinx::weigh(&h.scores, h.range, scale) {
                 Ok(spoken) => trial.decide(&h.said, &spoken),
                 Err(error) => Answer::Asked(error.to_string()),
             };
