@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use deictic_core::math;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -100,7 +101,7 @@ pub fn range(samples: &[i16]) -> Option<f32> {
 pub fn level(samples: &[i16]) -> f32 {
     let sum: f32 = samples.iter().map(|&s| f32::from(s) * f32::from(s)).sum();
     let mean = sum / samples.len().max(1) as f32;
-    10.0 * mean.max(1.0).log10()
+    10.0 / std::f32::consts::LN_10 * math::ln(mean.max(1.0))
 }
 
 /// Writes samples without any header, as the recogniser reads them.
@@ -124,7 +125,7 @@ mod tests {
     use super::*;
 
     fn tone(samples: usize, loud: f32) -> Vec<i16> {
-        let at = |i: usize| (loud * f32::sin(i as f32 * 0.2)) as i16;
+        let at = |i: usize| (loud * [0.0, 1.0, 0.0, -1.0][i / 8 % 4]) as i16;
         (0..samples).map(at).collect()
     }
 
