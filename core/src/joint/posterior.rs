@@ -85,6 +85,8 @@ struct Level {
     mean: [f32; 2],
     share: f32,
     best: Option<Triple>,
+    /// What the best holds.
+    peak: f32,
 }
 
 /// What of an intent's kind of thing an action takes.
@@ -135,17 +137,27 @@ impl Posterior<'_> {
         }
         let per_total = 1.0 / total;
         let (mut noise, mut knot, mut most) = (0.0, 0.0, (0.0, 0));
-        let mut largest = (0.0, None);
+        let (mut peaks, mut alike, mut first) = (0.0, true, None);
         for (b, level) in levels.iter().enumerate() {
             noise += level.share * per_total * knot;
             knot += 1.0;
             if level.share > most.0 {
                 most = (level.share, b);
             }
-            if let Some(triple) = level.best.filter(|_| level.best != largest.1) {
-                let share = self.share(&levels, &least, triple);
-                if share > largest.0 {
-                    largest = (share, level.best);
+            if level.best.is_some() {
+                peaks += level.peak;
+                alike &= *first.get_or_insert(level.best) == level.best;
+            }
+        }
+        let mut largest = (peaks, first.flatten());
+        if !alike {
+            largest = (0.0, None);
+            for level in &levels {
+                if let Some(triple) = level.best.filter(|_| level.best != largest.1) {
+                    let share = self.share(&levels, &least, triple);
+                    if share > largest.0 {
+                        largest = (share, level.best);
+                    }
                 }
             }
         }
@@ -267,6 +279,7 @@ impl Posterior<'_> {
                 }
             }
         }
+        level.peak = largest;
         if let Some(best) = &mut level.best {
             let a = usize::from(best.action);
             let action = self.actions.get(a);

@@ -230,17 +230,19 @@ fn bounded(costs: Costs) -> Costs {
 /// Adds costs of which `best` are the least. No option is less likely than that the word is about
 /// another one; `floor`, which all have, is left out.
 fn add(reading: &Reading<'_>, sums: &[Costs], best: Costs, floor: Costs, heard: &mut [Costs]) {
+    let most = u32::from(floor.lowest()).saturating_add(u32::from(DEAREST));
+    let most = most.min(u32::from(MOST)) as u16;
     let limit = Costs::new(
         best.lanes()
-            .map(|best| best.saturating_add(CLASH).min(MOST)),
+            .map(|best| best.saturating_add(CLASH).min(most)),
     );
     for (&k, sum) in reading.live.iter().zip(sums) {
         let mut cost = sum.least(limit).minus(floor);
         if reading.weight != 256 {
-            cost = cost.weighed(reading.weight);
+            cost = cost.weighed(reading.weight).least(Costs::all(DEAREST));
         }
         if let Some(heard) = heard.get_mut(usize::from(k)) {
-            *heard = heard.plus(cost.least(Costs::all(DEAREST)));
+            *heard = heard.plus(cost);
         }
     }
 }
