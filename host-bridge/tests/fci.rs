@@ -192,6 +192,36 @@ fn a_hand_that_finds_nothing_says_so() {
 }
 
 #[test]
+fn what_the_hand_holds_is_where_the_arm_stopped_at_a_fault() {
+    let mut lab = Lab::new();
+    lab.begin("pick", &[(O, "can")]).unwrap();
+    assert!(matches!(lab.ending(), Event::Done(_)));
+    let error = Errors::index_of("joint_reflex").unwrap();
+    lab.fer.trouble(Trouble::Reflex(error, 600));
+    lab.begin("move-up", &[]).unwrap();
+    assert!(matches!(lab.ending(), Event::Failed { .. }));
+    let can = lab.bench.position("can").map(f64::from);
+    assert!(can[2] > 0.211, "it has moved: {can:?}");
+    assert!(lab.hand_is_off(can) < 5e-3, "{can:?}");
+    assert_eq!(lab.fci.holding(), Some("can"));
+}
+
+#[test]
+fn an_arm_that_came_to_rest_short_of_the_end_is_brought_there() {
+    let mut lab = Lab::new();
+    lab.begin("move-up", &[]).unwrap();
+    assert!(matches!(lab.ending(), Event::Done(_)));
+    // The next one is about as long, and loses what comes after three quarters of it.
+    let cycles = lab.fer.state().cycles;
+    lab.fer.trouble(Trouble::Short(cycles * 3 / 4));
+    lab.begin("move-up", &[]).unwrap();
+    let ending = lab.ending();
+    assert!(matches!(ending, Event::Done(_)), "{ending:?}");
+    assert_eq!(lab.fer.state().trouble, Trouble::None, "it was short once");
+    assert!(lab.hand_is_off([0.307, 0.0, 0.687]) < 5e-3);
+}
+
+#[test]
 fn a_pressed_stop_moves_nothing() {
     let mut lab = Lab::new();
     lab.fer.trouble(Trouble::Pressed);

@@ -25,6 +25,8 @@ pub enum Trouble {
     Cut(u32),
     /// No state comes any more after so many cycles of motion.
     Silent(u32),
+    /// Commands are lost after so many cycles of motion, up to the end of that motion.
+    Short(u32),
     /// The hand finds nothing to grasp.
     EmptyHand,
     /// The user stop is pressed.
@@ -260,7 +262,12 @@ impl State {
             return;
         }
         self.cycles += 1;
-        let to = command.motion.q_c.map(f64::from);
+        let short = matches!(self.trouble, Trouble::Short(after) if self.cycles > after);
+        let to = if short {
+            self.q
+        } else {
+            command.motion.q_c.map(f64::from)
+        };
         let apart = self.q.iter().zip(&to).map(|(a, b)| (a - b).abs());
         self.fastest = apart.fold(self.fastest, f64::max);
         for (i, to) in to.into_iter().enumerate() {
@@ -269,6 +276,9 @@ impl State {
             (self.q[i], self.dq[i]) = (to, speed);
         }
         if command.motion.motion_generation_finished != 0 {
+            if short {
+                self.trouble = Trouble::None;
+            }
             self.end_move(v5::MoveStatus::Success, v5::RobotMode::Idle);
         }
     }

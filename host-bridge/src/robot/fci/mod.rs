@@ -134,6 +134,12 @@ impl Fci {
             }
             Report::Failed(at, fault) => {
                 let step = name(at).unwrap_or_default();
+                // Where it was last seen: what it holds has come as far as the hand.
+                let seen = self.shared.arm().map(|arm| place(&arm.stance.joints));
+                if let Some(moved) = seen.ok().and_then(|hand| self.hold.carried(hand)) {
+                    let changes = vec![moved];
+                    self.happened.push_back(Event::Changed { id, changes });
+                }
                 self.running = None;
                 let why = format!("{fault} (at: {step}); {}", fault.remedy());
                 let fault = fault.code();

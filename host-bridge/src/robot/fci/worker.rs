@@ -12,10 +12,17 @@ use franka::Gripper;
 use super::FciFault;
 use super::arm::{Arm, Host};
 use crate::robot::motion::{Kind, Motion, Stance};
-use crate::robot::panda::{Joints, Limits, OPEN};
+use crate::robot::panda::{Caps, Joints, Limits, OPEN, Path, Trajectory, apart};
 
 /// How long after a failed attempt the arm is tried again.
 const AGAIN: Duration = Duration::from_secs(1);
+
+/// How often the arm may be brought on to where a motion was to end, when it has lost commands and came to
+/// rest short of it.
+const CORRECTIONS: usize = 2;
+
+/// How far short of it that may be, in radians: more is an arm that something holds.
+const NEARLY: f64 = 0.2;
 
 /// What has become of a command's motions.
 #[derive(Clone, Debug)]
@@ -185,8 +192,28 @@ fn act(arm: &Arm, motion: &Motion, shared: &Shared) -> Result<Option<Joints>, Fc
     match &motion.kind {
         Kind::Travel(trajectory) => {
             arm.ready()?;
-            if arm.follow(trajectory, &shared.stop, |joints| shared.stands(joints))? {
-                arm.settle(&trajectory.path().end()).map(Some)
+            let end = trajectory.path().end();
+            let follow =
+                |way: &Trajectory| arm.follow(way, &shared.stop, |joints| shared.stands(joints));
+            let mut reached = follow(trajectory)?;
+            for _ in 0..CORRECTIONS {
+                if !reached {
+                    return Ok(None);
+                }
+                let from = match arm.settle(&end) {
+                    Err(FciFault::Missed(_)) => arm.joints()?,
+                    settled => return settled.map(Some),
+                };
+                match Path::through(vec![from, end]) {
+                    Some(rest) if apart(&from, &end) < NEARLY => {
+                        let caps = Caps::CAREFUL;
+                        reached = follow(&Trajectory::along(rest, &arm.limits(), &caps))?;
+                    }
+                    _ => break,
+                }
+            }
+            if reached {
+                arm.settle(&end).map(Some)
             } else {
                 Ok(None)
             }
