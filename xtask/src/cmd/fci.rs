@@ -42,8 +42,14 @@ impl Fci {
         let place = install()?;
         let this = std::env::current_exe().context("cannot find this program")?;
         let mut command = Command::new("unshare");
+        let user = process::output(Command::new("id").arg("-u"));
+        if user.is_none_or(|user| user.trim() != "0") {
+            command.arg("--map-root-user");
+        }
+        // A thousand commands a second are lost on a machine that has much else to do. Where more priority cannot be had,
+        // `nice` says so and goes on without.
         command
-            .args(["--map-root-user", "--net", "sh", "-c"])
+            .args(["--net", "nice", "-n", "-15", "sh", "-c"])
             .arg("ip link set lo up && exec \"$0\" fci --inside \"$1\"")
             .args([this, place]);
         process::run(&mut command)
@@ -140,7 +146,7 @@ fn play(robot: &str, haste: &str) -> Result<Vec<Row>> {
 }
 
 fn compare(place: &Path) -> Result<()> {
-    let expected = play("sim", "50")?;
+    let expected = play("sim", "8")?;
     let _simulator = start(place)?;
     let found = play("fci:127.0.0.1,no-realtime", "1")?;
     println!(
