@@ -90,6 +90,17 @@ pub fn did_you_mean<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -
         .unwrap_or_default()
 }
 
+/// What a field may have been meant for that a parser does not know, from its message, which names it
+/// and then all that are known, each in backticks.
+pub fn misspelt(message: &str) -> String {
+    if !message.starts_with("unknown") {
+        return String::new();
+    }
+    let mut names = message.split('`').skip(1).step_by(2);
+    let wrong = names.next().unwrap_or_default();
+    did_you_mean(wrong, names)
+}
+
 /// Names in quotation marks with commas between them.
 pub fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<_> = names.into_iter().map(|n| format!("\"{n}\"")).collect();
@@ -111,6 +122,9 @@ mod tests {
             "did you mean \"reachable\"? "
         );
         assert_eq!(did_you_mean("liquid", known), "");
+        let message = "unknown field `nam`, expected one of `name`, `words`";
+        assert_eq!(misspelt(message), "did you mean \"name\"? ");
+        assert_eq!(misspelt("invalid type: integer `3`"), "");
         assert_eq!(quoted(known), "\"reachable\", \"stackable\", \"glued\"");
         assert_eq!(quoted([]), "none");
     }

@@ -16,6 +16,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Decide(cmd::decide::Decide),
+    Understand(cmd::understand::Understand),
     Run(cmd::run::Run),
     Play(cmd::play::Play),
     Scene(cmd::scene::Scene),
@@ -23,12 +24,28 @@ enum Command {
 }
 
 fn main() -> miette::Result<ExitCode> {
-    match Cli::parse().command {
-        Command::Decide(decide) => decide.run()?,
-        Command::Run(run) => return run.run().map(ExitCode::from),
-        Command::Play(play) => play.run()?,
-        Command::Scene(scene) => scene.run()?,
-        Command::Setups(setups) => setups.run()?,
+    let json = std::env::args().any(|argument| argument == "--json");
+    match Cli::parse().command.run() {
+        Err(report) if json => {
+            let help = report.help().map(|help| help.to_string());
+            let error = serde_json::json!({ "error": report.to_string(), "remedy": help });
+            anstream::println!("{error}");
+            Ok(ExitCode::FAILURE)
+        }
+        result => result,
     }
-    Ok(ExitCode::SUCCESS)
+}
+
+impl Command {
+    fn run(self) -> miette::Result<ExitCode> {
+        match self {
+            Self::Decide(decide) => decide.run()?,
+            Self::Understand(understand) => understand.run()?,
+            Self::Run(run) => return run.run().map(ExitCode::from),
+            Self::Play(play) => play.run()?,
+            Self::Setups(setups) => setups.run()?,
+            Self::Scene(scene) => scene.run()?,
+        }
+        Ok(ExitCode::SUCCESS)
+    }
 }

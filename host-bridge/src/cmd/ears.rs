@@ -38,7 +38,7 @@ impl Speech {
         };
         listener.risk = self.speech_risk;
         let recogniser = || {
-            let pack = Pack::built_in(lexicon.language())?;
+            let pack = Pack::of(lexicon.language())?;
             Pocketsphinx::new(lexicon, &pack, &self.speech_model)
         };
         let ears = Ears::open(source, recogniser).map_err(|e| advice(&e, e.remedy()))?;

@@ -15,6 +15,7 @@ pub mod run;
 pub mod scene;
 mod scenes;
 pub mod setups;
+pub mod understand;
 
 use miette::Report;
 

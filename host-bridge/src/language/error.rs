@@ -120,7 +120,8 @@ impl LanguageError {
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
             Self::Unclear { .. } => "say it again".into(),
             Self::NoPack { .. } => {
-                "use language = \"en\" or \"cs\" in the vocabulary, or give a pack's file".into()
+                "use language = \"en\", \"cs\" or the name of a pack's file in the vocabulary"
+                    .into()
             }
             Self::BadPack { .. } => "mend the file at that line".into(),
             Self::Sentence(_) => "say it in two sentences".into(),

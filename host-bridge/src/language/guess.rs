@@ -13,11 +13,14 @@ use super::table::{Meaning, Table};
 const MISHEARD: f64 = 0.7;
 
 /// Below this a known word is not worth proposing.
-const NEAR: f64 = 0.4;
+const NEAR: f64 = 0.55;
 
 /// Roles that a misheard word may have: those that keep a command from being done, or that tell what
 /// goes where.
 const ROLES: [Role; 3] = [Role::Not, Role::Storage, Role::Polite];
+
+/// Unknown words up to this length are not taken for grammar words, most of which are as short.
+const LONG: usize = 3;
 
 /// All phrases with their sounds.
 #[derive(Clone, Debug)]
@@ -55,7 +58,9 @@ impl Guesser {
                 .roles
                 .iter()
                 .map(|(s, r)| (self.ear.likeness(&heard, s), *r));
+            let long = piece.words.chars().count() > LONG;
             let role = role
+                .filter(|_| long)
                 .max_by(|a, b| a.0.total_cmp(&b.0))
                 .unwrap_or((0.0, Role::Filler));
             let names = self

@@ -111,15 +111,12 @@ pub struct Listener<'a> {
 }
 
 impl<'a> Listener<'a> {
-    /// With the built-in pack of the vocabulary's language.
+    /// With the pack of the vocabulary's language.
     ///
     /// # Errors
-    /// [`LanguageError::NoPack`].
+    /// As [`Pack::of`].
     pub fn new(lexicon: &'a Lexicon) -> Result<Self, LanguageError> {
-        Ok(Self::with_pack(
-            lexicon,
-            Pack::built_in(lexicon.language())?,
-        ))
+        Ok(Self::with_pack(lexicon, Pack::of(lexicon.language())?))
     }
 
     /// With another pack.

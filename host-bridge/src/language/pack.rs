@@ -234,6 +234,20 @@ impl Pack {
         }
     }
 
+    /// The pack of a vocabulary's `language`: a built-in one, or a file that ends in `.toml`.
+    ///
+    /// # Errors
+    /// [`LanguageError::NoPack`], [`LanguageError::BadPack`].
+    pub fn of(language: &str) -> Result<Self, LanguageError> {
+        if !language.ends_with(".toml") {
+            return Self::built_in(language);
+        }
+        let text = std::fs::read_to_string(language).map_err(|e| LanguageError::BadPack {
+            why: format!("{language}: {e}"),
+        })?;
+        Self::read(&text)
+    }
+
     /// A pack from its TOML text.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use deictic_core::scene::SceneError;
 use thiserror::Error;
 
-use crate::diagnose::{Problem, did_you_mean, quoted};
+use crate::diagnose::{Problem, did_you_mean, misspelt, quoted};
 use crate::explain;
 
 /// What is wrong with a scene file.
@@ -11,7 +11,7 @@ use crate::explain;
 pub enum SceneProblem {
     /// The file cannot be read.
     #[error("cannot be read: {0}")]
-    Unreadable(#[source] std::io::Error),
+    Unreadable(std::io::Error),
     /// It is not TOML, or not of this shape.
     #[error("{0}")]
     Syntax(String),
@@ -67,11 +67,8 @@ impl Problem for SceneProblem {
                  program"
                     .into()
             }
-            Self::Syntax(_) => {
-                "the file is TOML with [[object]] and [[storage]] tables that have a `name`, a \
-                 `position` and `features`; see data/scenes/table.toml"
-                    .into()
-            }
+            Self::Syntax(message) => format!("{}{}", misspelt(message), "the file is TOML with [[object]] and [[storage]] tables that have a `name`, a \
+                 `position` and `features`; see data/scenes/table.toml"),
             Self::UnknownThing { name, known, .. } => format!(
                 "{}add it to the vocabulary, or take one of {}",
                 did_you_mean(name, known.iter().map(String::as_str)),

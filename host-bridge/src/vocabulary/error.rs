@@ -3,7 +3,7 @@
 use deictic_core::vocabulary::VocabularyError;
 use thiserror::Error;
 
-use crate::diagnose::{Problem, did_you_mean, quoted};
+use crate::diagnose::{Problem, did_you_mean, misspelt, quoted};
 use crate::explain;
 
 /// What is wrong with a vocabulary file.
@@ -11,7 +11,7 @@ use crate::explain;
 pub enum VocabularyProblem {
     /// The file cannot be read.
     #[error("cannot be read: {0}")]
-    Unreadable(#[source] std::io::Error),
+    Unreadable(std::io::Error),
     /// It is not TOML, or not of this shape.
     #[error("{0}")]
     Syntax(String),
@@ -75,11 +75,12 @@ impl Problem for VocabularyProblem {
             Self::Unreadable(_) => {
                 "give the path of a vocabulary file, or none to use the tabletop one".into()
             }
-            Self::Syntax(_) => {
+            Self::Syntax(message) => format!(
+                "{}{}",
+                misspelt(message),
                 "the file is TOML with [[action]], [[object]], [[storage]] and [[parameter]] \
                  tables; see data/tabletop.toml"
-                    .into()
-            }
+            ),
             Self::BadName(_) => "use letters, digits, '-' and '_', no more than 40 of them".into(),
             Self::Twice { .. } => {
                 "keep one of them; further words for the same thing go into its `words`".into()

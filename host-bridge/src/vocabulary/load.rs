@@ -29,7 +29,12 @@ impl Lexicon {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path)
             .map_err(|e| FileError::new(&name, "", None, Problem::Unreadable(e)))?;
-        Self::parse(&name, &text)
+        let mut lexicon = Self::parse(&name, &text)?;
+        // A pack of the user's own is beside the vocabulary.
+        if let (true, Some(folder)) = (lexicon.language.ends_with(".toml"), path.parent()) {
+            lexicon.language = folder.join(&lexicon.language).display().to_string();
+        }
+        Ok(lexicon)
     }
 
     /// The vocabulary that comes with the program.

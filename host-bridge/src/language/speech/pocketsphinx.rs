@@ -22,8 +22,9 @@ pub const MODEL: &str = "/usr/share/pocketsphinx/model/en-us";
 
 /// How far a score must be behind, in a quiet recording, for its text to be e times less probable.
 /// Scores are ln of the acoustic likelihood in units of 0.1; taken as they are they would be far too
-/// sure, as frames of 10 ms are not independent. In quiet, what is wrong is at most some 130 ahead.
-pub const SCALE: f64 = 30.0;
+/// sure, as frames of 10 ms are not independent. Of 56 utterances in quiet, by voices that are not
+/// scored, 51 were right and none wrong at 20, 52 and 1 at 15, 50 and none at 30.
+pub const SCALE: f64 = 20.0;
 
 /// From this many dB between the voice and what is behind it a recording counts as quiet.
 const QUIET: f32 = 40.0;

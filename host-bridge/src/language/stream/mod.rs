@@ -9,6 +9,7 @@ mod align;
 mod evidence;
 mod fuse;
 mod grammar;
+mod orders;
 
 pub use fuse::{Fused, Open, Outcome, Part};
 pub use grammar::{Class, Grammar, GrammarError, Signature, Words};

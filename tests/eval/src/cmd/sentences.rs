@@ -32,6 +32,8 @@ struct Score {
     right: f64,
     wrong: f64,
     asked: f64,
+    /// Of which every word was heard or seen with any probability: nobody knows the others.
+    knowable: f64,
 }
 
 impl Sentences {
@@ -42,10 +44,11 @@ impl Sentences {
             let samples = samples
                 .as_array()
                 .with_context(|| format!("{set}: not a list"))?;
-            let mut counts = [0_usize; 3];
+            let (mut counts, mut known) = ([0_usize; 3], 0_usize);
             for (i, sample) in samples.iter().enumerate() {
                 let kind = judge(set, sample).with_context(|| format!("{set}, sample {i}"))?;
                 counts[kind as usize] += 1;
+                known += usize::from(knowable(sample)?);
             }
             let share =
                 |kind: Kind| counts[kind as usize] as f64 * 100.0 / samples.len().max(1) as f64;
@@ -54,20 +57,22 @@ impl Sentences {
                 right: share(Kind::Right),
                 wrong: share(Kind::Wrong),
                 asked: share(Kind::Asked),
+                knowable: known as f64 * 100.0 / samples.len().max(1) as f64,
             });
         }
         if self.json {
             return super::print_json(&scores);
         }
-        println!("set             right  wrong  asked");
+        println!("set             right  wrong  asked  knowable");
         for Score {
             set,
             right,
             wrong,
             asked,
+            knowable,
         } in &scores
         {
-            println!("{set:<14} {right:>6.1} {wrong:>6.1} {asked:>6.1}");
+            println!("{set:<14} {right:>6.1} {wrong:>6.1} {asked:>6.1} {knowable:>9.1}");
         }
         Ok(())
     }
@@ -108,6 +113,23 @@ fn judge(set: &str, sample: &Value) -> anyhow::Result<Kind> {
         Outcome::Sentence => Kind::Wrong,
         Outcome::Ask(_) | Outcome::Repeat => Kind::Asked,
     })
+}
+
+/// Whether every word of the true sentence is among what was heard or seen.
+fn knowable(sample: &Value) -> anyhow::Result<bool> {
+    let mut seen = Vec::new();
+    for part in ["voice", "gesture"] {
+        let moments = stream(sample.get(part).context("no stream")?)?;
+        let words = moments.into_iter().flat_map(|m| m.words);
+        seen.extend(
+            words
+                .filter(|(_, p)| *p > 0.0)
+                .map(|(word, _)| word.to_lowercase()),
+        );
+    }
+    let truth = sample.get("true_sentence").and_then(Value::as_str);
+    let mut words = truth.unwrap_or_default().split(' ').filter(|w| *w != "to");
+    Ok(words.all(|w| seen.contains(&w.to_lowercase())))
 }
 
 /// The sentence as the sets write it.

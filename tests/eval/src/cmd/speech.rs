@@ -26,6 +26,9 @@ pub struct Speech {
     /// What the utterances are drawn from
     #[arg(long, default_value_t = 2)]
     seed: u64,
+    /// How many of the voices
+    #[arg(long, default_value_t = 6)]
+    voices: usize,
     /// Take the voices that the scale of scores is fitted on, and score several scales
     #[arg(long)]
     fit: bool,
@@ -109,9 +112,11 @@ impl Speech {
             (SCORED, self.seed)
         };
         let folder = tempfile::tempdir().context("no folder for recordings")?;
-        let bar = ProgressBar::new((voices.len() * LEVELS.len() * self.rounds * 9) as u64);
+        let bar = ProgressBar::new(
+            (self.voices.min(voices.len()) * LEVELS.len() * self.rounds * 9) as u64,
+        );
         let mut all = Vec::new();
-        for (v, voice) in (0..).zip(voices) {
+        for (v, voice) in (0..).zip(voices).take(self.voices) {
             for said in said(lexicon, pack, self.rounds, seed * 100 + v) {
                 for level in LEVELS {
                     let recording = speak(folder.path(), voice, &said, level)?;
