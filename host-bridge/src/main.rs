@@ -21,6 +21,8 @@ enum Command {
     Play(cmd::play::Play),
     Scene(cmd::scene::Scene),
     Setups(cmd::setups::Setups),
+    Hand(cmd::hand::Hand),
+    Gestures(cmd::gestures::Gestures),
 }
 
 fn main() -> miette::Result<ExitCode> {
@@ -47,5 +49,13 @@ impl Command {
             Self::Scene(scene) => scene.run()?,
         }
         Ok(ExitCode::SUCCESS)
+    match Cli::parse().command {
+        Command::Decide(decide) => decide.run()?,
+        Command::Run(run) => return run.run().map(ExitCode::from),
+        Command::Play(play) => play.run()?,
+        Command::Scene(scene) => scene.run()?,
+        Command::Setups(setups) => setups.run()?,
+        Command::Hand(hand) => hand.run()?,
+        Command::Gestures(gestures) => gestures.run()?,
     }
 }

@@ -30,8 +30,8 @@ impl Problem for ScriptProblem {
                 "give the path of a script, or none to play the one that comes with the program"
             }
             Self::Syntax(_) => {
-                "the file is TOML with [[turn]] tables that have a `kind`, a `note`, and `said` or \
-                 `shown`; see data/demo.toml"
+                "the file is TOML with [[turn]] tables that have a `kind`, a `note`, and `said`, \
+                 `shown` or `hand`; see data/demo.toml"
             }
         }
         .into()
@@ -59,6 +59,9 @@ pub struct Turn {
     pub said: Option<String>,
     /// What is shown, typed as for `deictic decide --show`.
     pub shown: Option<String>,
+    /// What a made-up person shows with the hand, frame by frame, while it is said: shapes, movements
+    /// and things to point at, for example `thumbsup cup drawer`.
+    pub hand: Option<String>,
     /// Observe both through sensors as noisy as this.
     pub noise: Option<Noise>,
     /// What the noise starts from.

@@ -2,7 +2,7 @@
 
 use super::frame::HandFrame;
 use super::mapping::STROKES;
-use super::path::Path;
+use super::path::{Path, Stroke};
 use super::stroke::{Comparison, Likely, Templates};
 use super::vector;
 use crate::time::Micros;
@@ -73,6 +73,17 @@ impl Movement {
         free: bool,
         templates: &Templates<'_>,
     ) -> Option<Likely<STROKES>> {
+        if let Some(stroke) = self.ended(clock, frame, free) {
+            self.comparison = Some(Comparison::new(stroke));
+            return None;
+        }
+        let likely = self.comparison.as_mut()?.step(templates, PER_FRAME)?;
+        self.comparison = None;
+        Some(likely)
+    }
+
+    /// Takes one frame, and gives the stroke of a movement that may be a gesture when it has ended.
+    pub fn ended(&mut self, clock: Micros, frame: &HandFrame, free: bool) -> Option<Stroke> {
         let came = *self.came.get_or_insert(clock);
         let speed = vector::length(frame.velocity);
         if !free {
@@ -84,13 +95,10 @@ impl Movement {
         } else if !self.path.is_empty() {
             let since = *self.resting.get_or_insert(clock);
             if clock.since(since) >= PAUSE {
-                self.end(came);
-                return None;
+                return self.end(came);
             }
         }
-        let likely = self.comparison.as_mut()?.step(templates, PER_FRAME)?;
-        self.comparison = None;
-        Some(likely)
+        None
     }
 
     fn restart(&mut self) {
@@ -99,13 +107,12 @@ impl Movement {
         self.resting = None;
     }
 
-    fn end(&mut self, came: Micros) {
+    fn end(&mut self, came: Micros) -> Option<Stroke> {
         let begun = self.path.begun();
         let rested = self.resting.unwrap_or(begun);
         let gesture = self.fast && begun.since(came) >= ARRIVAL && rested.since(begun) <= LONGEST;
-        if gesture && let Some(stroke) = self.path.stroke() {
-            self.comparison = Some(Comparison::new(stroke));
-        }
+        let stroke = if gesture { self.path.stroke() } else { None };
         self.restart();
+        stroke
     }
 }

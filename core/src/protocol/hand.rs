@@ -50,6 +50,12 @@ pub struct HandSettings {
     pub aim: Aim,
 }
 
+impl Default for HandSettings {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
 impl HandSettings {
     /// What holds until a host says otherwise.
     pub const DEFAULT: Self = Self {

@@ -291,7 +291,7 @@ impl<'a> Conversation<'a> {
 
     /// How it ended, if it did; of a session for one command `once` that is over.
     pub fn ending(&self, session: &Session<'_>, once: bool) -> Option<Ending> {
-        let idle = session.is_idle() && self.waiting.is_empty();
+        let idle = session.is_idle() && !session.is_showing() && self.waiting.is_empty();
         let over = self.quits || (once && session.question().is_none());
         (idle && over).then_some(self.last)
     }

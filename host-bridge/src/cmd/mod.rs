@@ -4,6 +4,8 @@ mod conversation;
 pub mod decide;
 mod ears;
 mod files;
+pub mod gestures;
+pub mod hand;
 mod lines;
 mod log;
 mod paint;
@@ -14,6 +16,7 @@ mod profile;
 pub mod run;
 pub mod scene;
 mod scenes;
+mod sensing;
 pub mod setups;
 pub mod understand;
 

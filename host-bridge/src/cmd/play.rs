@@ -17,8 +17,10 @@ use super::log::Log;
 use super::pictures::{Draw, Pictures};
 use super::printer::Printer;
 use super::profile::Choice;
+use super::sensing::{Sensing, drain};
 use super::{advice, paint};
 use crate::explain;
+use crate::hand::source::{Address as Sensor, Source};
 use crate::language::Listener;
 use crate::link::{self, Address};
 use crate::robot::address::reach;
@@ -98,6 +100,9 @@ impl Play {
         };
         let mut pictures = self.draw.open()?;
         let mut log = Log::open(self.log.as_deref())?;
+        let setup = Sensing::default().setup(session.table(), &lexicon)?;
+        // A unit that cannot be told is lost, which the session tells.
+        let _ = session.set_hand(setup);
         printer.greet(&self.board, &session);
         let mut conversation = Conversation::new(&listener, printer);
         let mut rows = Vec::new();
@@ -141,14 +146,39 @@ fn play(
     let mut row = Row {
         kind: turn.kind.clone() + &noise.unwrap_or_default().to_lowercase(),
         said: text(&turn.said),
-        shown: text(&turn.shown),
+        shown: text(&turn.hand.as_ref().or(turn.shown.as_ref()).cloned()),
         robot: "stands still".to_owned(),
         ..Row::default()
     };
-    conversation.take(session, turn.said.as_deref(), turn.shown.as_deref());
+    let mut hand = match &turn.hand {
+        Some(acts) => {
+            let made_up = Sensor::MadeUp {
+                seed: turn.seed,
+                acts: acts.clone(),
+            };
+            Some(Source::open(&made_up, session.table(), session.lexicon())?)
+        }
+        None => None,
+    };
+    // Who uses the hand speaks while it is shown.
+    let mut speaks = hand.is_some();
+    if !speaks {
+        conversation.take(session, turn.said.as_deref(), turn.shown.as_deref());
+    }
     let mut answer = turn.answer.as_deref();
     loop {
         pictures.turn(session);
+        let take = |sample| drop(session.sense(&sample));
+        if hand
+            .as_ref()
+            .is_some_and(|hand| !drain(hand, take, |odd| printer.odd(&odd)))
+        {
+            hand = None;
+        }
+        if speaks && (session.is_showing() || hand.is_none()) {
+            speaks = false;
+            conversation.take(session, turn.said.as_deref(), None);
+        }
         for happening in session.turn(Duration::from_millis(10)) {
             printer.happening(&happening, session.table(), session.lexicon());
             pictures.happening(&happening, session)?;
@@ -165,7 +195,7 @@ fn play(
                 _ => {}
             }
         }
-        if !session.is_idle() {
+        if !session.is_idle() || session.is_showing() || hand.is_some() {
             continue;
         }
         let asked = session.question().is_some();

@@ -160,6 +160,12 @@ impl Printer {
         }
     }
 
+    /// Something odd about a hand sensor; it goes on.
+    pub fn odd(self, what: &str) {
+        self.line("sensor", paint::bad(what));
+        self.object(&json!({ "event": "odd-sensor", "why": what }));
+    }
+
     /// What was answered to a question.
     pub fn answered(self, text: &str) {
         self.line("answered", text);
@@ -185,6 +191,10 @@ impl Printer {
                 self.object(&json!({
                     "event": "decided", "number": number, "scene": scene, "decision": report,
                 }));
+            }
+            Happening::Shown { text } => {
+                self.line("shown", text);
+                self.object(&json!({ "event": "shown", "shown": text }));
             }
             Happening::Reasons(reasons) => {
                 let lines = if self.full {

@@ -20,6 +20,7 @@ use super::pictures::Draw;
 use super::printer::Printer;
 use super::profile::Choice;
 use super::scenes::Scenes;
+use super::sensing::{Sensing, drain};
 use super::{advice, paint};
 use crate::language::Listener;
 use crate::language::speech::Heard;
@@ -78,6 +79,8 @@ pub struct Run {
     #[command(flatten)]
     speech: Speech,
     #[command(flatten)]
+    sensing: Sensing,
+    #[command(flatten)]
     choice: Choice,
     /// How long the unit waits for what is shown after it heard what is said, and the other way
     /// round, in milliseconds; 1000, and 3000 with speech, which is heard a while after it was said
@@ -121,6 +124,10 @@ impl Run {
         let address = self.board.clone();
         let opener = Box::new(move || link::open(&address));
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
+        let setup = self.sensing.setup(session.table(), &lexicon)?;
+        let mut hand = self.sensing.open(session.table(), &lexicon)?;
+        // A unit that cannot be told is lost, which the session tells.
+        let _ = session.set_hand(setup);
         let interrupts = interrupts()?;
         let printer = Printer {
             json: self.json,
@@ -173,6 +180,13 @@ impl Run {
                 }
             }
             conversation.next(&mut session);
+            let take = |sample| drop(session.sense(&sample));
+            if hand
+                .as_ref()
+                .is_some_and(|hand| !drain(hand, take, |odd| printer.odd(&odd)))
+            {
+                hand = None;
+            }
             match interrupts.swap(0, Ordering::Relaxed) {
                 0 => {}
                 _ if session.is_idle() => conversation.quit(),
@@ -188,6 +202,8 @@ impl Run {
                 log.hear(&happening, &lexicon)?;
             }
             match conversation.ending(&session, once) {
+                // What the hand is still to show belongs to it.
+                Some(_) if hand.is_some() => {}
                 Some(ending) => return Ok(exit_code(ending)),
                 None if session.is_idle() && !once && !prompted && self.prompts() => {
                     anstream::print!("{} ", paint::dim(">"));

@@ -59,11 +59,11 @@ fn hand_fault(fault: &HandFault) -> Advice {
         HandFault::Meaning(error) => mapping_error(error),
         HandFault::Mount(MountError::Axes) => Advice::new(
             "the hand sensor's axes do not stand at right angles, right-handed, each of length 1",
-            "look at `mount` in the scene file",
+            "look at x, y and z of [sensor] in the scene file",
         ),
         HandFault::Mount(MountError::Origin) => Advice::new(
             "the hand sensor stands further than 100 m from the robot",
-            "give its origin in metres, in `mount` of the scene file",
+            "give its origin in metres, in [sensor] of the scene file",
         ),
         HandFault::Aim => Advice::new(
             "nobody aims like that",

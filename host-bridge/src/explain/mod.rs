@@ -5,10 +5,12 @@ mod errors;
 mod faults;
 mod question;
 pub mod reasons;
+mod shown;
 
 pub use errors::{profile_error, scene_error, sentence_error, vocabulary_error};
 pub use faults::{distrust, fault, loss};
 pub use question::{because, intent, question};
+pub use shown::sentence;
 
 /// An error in words.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! What can be wrong with a scene file.
 
+use deictic_core::protocol::hand::HandFault;
+use deictic_core::protocol::message::Fault;
 use deictic_core::scene::SceneError;
 use thiserror::Error;
 
@@ -54,6 +56,9 @@ pub enum SceneProblem {
     /// A thing that is to be taken away and is not there.
     #[error("the {0} is not on the table")]
     NotThere(String),
+    /// The hand sensor cannot stand so, or nobody aims so.
+    #[error("{}", explain::fault(&Fault::Hand(*.0)).what)]
+    Sensor(HandFault),
     /// The core refused a thing.
     #[error("{}", explain::scene_error(.0).what)]
     Refused(SceneError),
@@ -92,6 +97,7 @@ impl Problem for SceneProblem {
             Self::NoPosition(_) => "give its place as [x, y, z] in metres".into(),
             Self::NotThere(_) => "ask with \"show\" for what is on the table".into(),
             Self::BadLikelihood(_) => "write a number from 0 to 1, or true or false".into(),
+            Self::Sensor(fault) => explain::fault(&Fault::Hand(*fault)).remedy,
             Self::Refused(error) => explain::scene_error(error).remedy,
         }
     }

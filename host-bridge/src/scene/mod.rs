@@ -8,6 +8,7 @@ pub mod watch;
 
 use deictic_core::category::Category;
 use deictic_core::large;
+use deictic_core::protocol::hand::HandSettings;
 use deictic_core::scene::SceneError;
 
 use crate::vocabulary::Lexicon;
@@ -45,6 +46,7 @@ pub enum Change {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabletop {
     scene: large::Scene,
+    hand: HandSettings,
 }
 
 impl Tabletop {
@@ -58,7 +60,21 @@ impl Tabletop {
     ) -> Result<Self, SceneError> {
         Ok(Self {
             scene: scene(1, things, lexicon)?,
+            hand: HandSettings::DEFAULT,
         })
+    }
+
+    /// The same table, with the hand sensor standing so.
+    #[must_use]
+    pub fn with_hand(mut self, hand: HandSettings) -> Self {
+        self.hand = hand;
+        self
+    }
+
+    /// Where the hand sensor stands and how well the person aims.
+    #[must_use]
+    pub fn hand(&self) -> HandSettings {
+        self.hand
     }
 
     /// What the core makes of it.

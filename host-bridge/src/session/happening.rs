@@ -22,6 +22,11 @@ pub enum Happening {
         /// What was heard and seen, before it was held against the scene.
         heard: Option<Intent>,
     },
+    /// The unit has read this off a hand.
+    Shown {
+        /// In words.
+        text: String,
+    },
     /// Why the unit has decided so; only in a session that explains.
     Reasons(Box<Reasons>),
     /// The unit asks the person; the answer goes to [`super::Session::answer`].

@@ -1,8 +1,11 @@
 //! What a session does about what the unit and the robot tell it.
 
+use std::time::Duration;
+
 use deictic_core::decide::Outcome;
-use deictic_core::large::Intent;
-use deictic_core::protocol::message::{Decided, RobotState, RobotStatus};
+use deictic_core::large::{Intent, Sentence};
+use deictic_core::protocol::hand::HandFault;
+use deictic_core::protocol::message::{Decided, Fault, RobotState, RobotStatus};
 use deictic_core::time::Micros;
 
 use super::{Doing, HANGING, Happening, PATIENCE, Session};
@@ -34,6 +37,13 @@ impl Session<'_> {
             }
             // Asked for after every decision that is explained, so that all reasons are before it.
             unit::Event::Statistics(_) => self.tell_reasons(),
+            unit::Event::Fault(fault @ Fault::Hand(HandFault::SensorLost)) => {
+                // What was said stays said.
+                self.happened.push(Happening::Fault(fault));
+            }
+            unit::Event::Showing(showing) => self.showing = showing.then(clock::now),
+            unit::Event::Shown { sentence, answers } => self.shown(*sentence, answers),
+            unit::Event::Hand(_) | unit::Event::HandStatistics(_) => {}
             unit::Event::Fault(fault) => {
                 self.due = None;
                 self.happened.push(Happening::Fault(fault));
@@ -44,12 +54,31 @@ impl Session<'_> {
                 self.due = None;
                 self.stopping = false;
                 self.question = None;
+                self.showing = None;
                 self.reasons = None;
                 self.happened.push(Happening::Lost(loss));
                 self.drop_queue();
             }
             unit::Event::Back(hello) => self.happened.push(Happening::Back(hello)),
         }
+    }
+
+    /// The unit goes by what a hand said, as if it had been told here.
+    fn shown(&mut self, sentence: Sentence, answers: Option<u32>) {
+        let wait = match answers {
+            Some(_) => {
+                self.question = None;
+                PATIENCE
+            }
+            None => {
+                self.hears(&sentence);
+                Duration::from_micros(self.configuration.window.0) + PATIENCE
+            }
+        };
+        let text = explain::sentence(&sentence, self.lexicon);
+        self.happened.push(Happening::Shown { text });
+        self.spoken.push(sentence);
+        self.due = Some(clock::now() + wait);
     }
 
     fn decided(&mut self, decided: Decided<16>, trust: Result<(), unit::Distrust>) {

@@ -15,15 +15,17 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
+use deictic_core::gesture::wire::Sample;
 use deictic_core::large::{self, Intent, Sentence};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::scene::SceneError;
 use deictic_core::time::Micros;
-use deictic_core::unit::pairing::ANSWER;
+use deictic_core::unit::pairing::{ANSWER, HAND_PATIENCE};
 
 use crate::answering::certainly;
 use crate::clock;
 use crate::explain::reasons::Reasons;
+use crate::hand::meaning::HandSetup;
 use crate::robot::{CommandId, Posture, Robot};
 use crate::scene::Tabletop;
 use crate::understanding::is_stop;
@@ -77,6 +79,8 @@ pub struct Session<'a> {
     stopping: bool,
     /// What is still to be said to the unit, once the robot is ready for more.
     queue: VecDeque<Sentence>,
+    /// Since when a hand has been saying something.
+    showing: Option<Instant>,
     /// The reasons that are arriving, and until when they are waited for.
     reasons: Option<(Reasons, Instant)>,
     happened: Vec<Happening>,
@@ -114,6 +118,7 @@ impl<'a> Session<'a> {
             due: None,
             stopping: false,
             queue: VecDeque::new(),
+            showing: None,
             reasons: None,
             happened: Vec::new(),
         })
@@ -200,6 +205,12 @@ impl<'a> Session<'a> {
             && self.spoken.iter().all(|s| s.modality() != modality)
     }
 
+    /// Whether a hand is in the middle of a sentence.
+    #[must_use]
+    pub fn is_showing(&self) -> bool {
+        self.showing.is_some()
+    }
+
     /// Tells the unit what a modality observed, at once. A clear stop stops the robot first.
     ///
     /// # Errors
@@ -209,15 +220,43 @@ impl<'a> Session<'a> {
             self.halt();
             self.stopping = true;
         }
-        let modality = sentence.modality();
-        if self.question.take().is_some() || self.spoken.iter().any(|s| s.modality() == modality) {
-            self.spoken.clear();
-        }
+        self.hears(&sentence);
         self.spoken.push(sentence.clone());
         self.unit.observe(sentence)?;
         let window = Duration::from_micros(self.configuration.window.0);
         self.due = Some(clock::now() + window + PATIENCE);
         Ok(())
+    }
+
+    /// A sentence that is no answer ends the question, and what was said before by the same modality.
+    fn hears(&mut self, sentence: &Sentence) {
+        let modality = sentence.modality();
+        if self.question.take().is_some() || self.spoken.iter().any(|s| s.modality() == modality) {
+            self.spoken.clear();
+        }
+    }
+
+    /// Tells the unit how to read a hand.
+    ///
+    /// # Errors
+    /// [`UnitError`] when the unit is not there; it is told when it comes back.
+    pub fn set_hand(&mut self, setup: HandSetup) -> Result<(), UnitError> {
+        self.unit.set_hand(setup)
+    }
+
+    /// Tells the unit what a hand sensor at this machine saw.
+    ///
+    /// # Errors
+    /// [`UnitError`] when the unit is not there.
+    pub fn sense(&mut self, sample: &Sample) -> Result<(), UnitError> {
+        self.unit.sense(sample)
+    }
+
+    /// Whether a hand is in the middle of something, which a decision waits for.
+    fn waits_for_hand(&self) -> bool {
+        let patience = Duration::from_micros(HAND_PATIENCE.0) + PATIENCE;
+        self.showing
+            .is_some_and(|since| clock::now() < since + patience)
     }
 
     /// Tells the unit further sentences one by one, each when the robot is done with the one before.
@@ -278,7 +317,7 @@ impl<'a> Session<'a> {
         for event in self.unit.poll(patience) {
             self.hear_unit(event);
         }
-        if self.due.is_some_and(|due| clock::now() >= due) {
+        if !self.waits_for_hand() && self.due.is_some_and(|due| clock::now() >= due) {
             self.due = None;
             self.happened.push(Happening::NoDecision);
             self.drop_queue();

@@ -14,6 +14,7 @@ use deictic_core::time::Micros;
 
 use super::{PATIENCE, UnitError};
 use crate::clock;
+use crate::hand::meaning::HandSetup;
 use crate::link::Wire;
 
 /// How often an unanswered Hello is said again: a board may be in the middle of starting.
@@ -161,6 +162,16 @@ impl Conversation {
                 first: small(i * ACTIONS_PART),
                 actions: part.iter().copied().collect(),
             }))?;
+        }
+        Ok(())
+    }
+
+    /// Says how to read a hand.
+    pub fn say_hand(&mut self, setup: &HandSetup) -> Result<(), UnitError> {
+        self.say(&ToUnit::Meanings(setup.meanings.clone()))?;
+        self.say(&ToUnit::Hand(setup.settings))?;
+        for part in setup.taught.parts() {
+            self.say(&ToUnit::Templates(part))?;
         }
         Ok(())
     }

@@ -1,5 +1,7 @@
 //! What a unit has said, or what has become of it.
 
+use deictic_core::large::Sentence;
+use deictic_core::protocol::hand::{HandStatistics, HandView};
 use deictic_core::protocol::message::{Decided, Fault, Hello, Statistics, Why, WhyActions};
 
 use super::trust::Distrust;
@@ -22,6 +24,19 @@ pub enum Event {
     Fault(Fault),
     /// What it has counted.
     Statistics(Statistics),
+    /// A hand has begun to say something; `false`: it is over.
+    Showing(bool),
+    /// What a hand said, as the unit goes by it from now on.
+    Shown {
+        /// What it said.
+        sentence: Box<Sentence>,
+        /// The decision whose question it answers, if it does.
+        answers: Option<u32>,
+    },
+    /// What it sees of a hand.
+    Hand(Box<HandView>),
+    /// What has become of samples.
+    HandStatistics(HandStatistics),
     /// It is gone; nothing can be decided until [`Event::Back`].
     Lost(Loss),
     /// It is there, and knows vocabulary, scene and configuration again. What was waiting in it is

@@ -9,10 +9,16 @@ mod trust;
 
 use std::time::{Duration, Instant};
 
+use deictic_core::gesture::wire::{Sample, encode};
 use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
-use deictic_core::protocol::message::{Configuration, Fault, Hello, Loaded, RobotStatus};
+use deictic_core::protocol::hand::SampleBytes;
+use deictic_core::protocol::message::{
+    Configuration, Fault, Hello, Loaded, RobotStatus, SentencePart,
+};
+use deictic_core::sentence::GESTURE;
 
 use crate::clock;
+use crate::hand::meaning::HandSetup;
 use crate::link::{Address, Wire, WireError, open};
 use conversation::Conversation;
 pub use error::UnitError;
@@ -48,6 +54,9 @@ pub struct GestureUnit {
     vocabulary: Vocabulary,
     scene: Scene,
     configuration: Configuration,
+    hand: Option<HandSetup>,
+    /// What a hand said that is arriving in parts.
+    shown: Sentence,
     trust: Trust,
     hello: Hello,
     beat: Instant,
@@ -90,6 +99,8 @@ impl GestureUnit {
             vocabulary: vocabulary.clone(),
             scene: scene.clone(),
             configuration,
+            hand: None,
+            shown: Sentence::new(GESTURE),
             trust: Trust::new(vocabulary.fingerprint(), scene.version()),
             hello,
             beat: clock::now(),
@@ -142,6 +153,36 @@ impl GestureUnit {
     /// [`UnitError`]; the unit has then not heard it.
     pub fn report(&mut self, status: RobotStatus) -> Result<(), UnitError> {
         self.with(|c| c.say(&ToUnit::Robot(status)))
+    }
+
+    /// Tells the unit how to read a hand, now and whenever it comes back.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit is told when it comes back.
+    pub fn set_hand(&mut self, setup: HandSetup) -> Result<(), UnitError> {
+        self.hand = Some(setup.clone());
+        self.with(|c| c.say_hand(&setup))
+    }
+
+    /// Tells the unit what a hand sensor saw.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit has then not heard it. A sample that cannot be is left out.
+    pub fn sense(&mut self, sample: &Sample) -> Result<(), UnitError> {
+        let Ok(bytes) = encode(sample) else {
+            return Ok(());
+        };
+        let bytes = SampleBytes::from_slice(&bytes).unwrap_or_default();
+        self.with(|c| c.say(&ToUnit::Sample(bytes)))
+    }
+
+    /// Asks the unit what it sees of a hand; the answers are an [`Event::Hand`] and an
+    /// [`Event::HandStatistics`].
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit has then not heard it.
+    pub fn ask_hand(&mut self) -> Result<(), UnitError> {
+        self.with(|c| c.say(&ToUnit::AskHand))
     }
 
     /// Asks the unit what it has counted; the answer is an [`Event::Statistics`].
@@ -222,8 +263,31 @@ impl GestureUnit {
                 None
             }
             ToHost::Statistics(statistics) => Some(Event::Statistics(statistics)),
+            ToHost::Showing(showing) => Some(Event::Showing(showing)),
+            ToHost::Shown(part) => self.shown(part),
+            ToHost::Hand(view) => Some(Event::Hand(Box::new(view))),
+            ToHost::HandStatistics(statistics) => Some(Event::HandStatistics(statistics)),
             _ => None,
         }
+    }
+
+    /// Takes a part of what a hand said; the last one makes it whole. One that has lost a part only
+    /// misses in what people are told, as the unit itself goes by all of it.
+    fn shown(&mut self, part: SentencePart<16, 64>) -> Option<Event> {
+        if part.first == 0 {
+            self.shown.restart(part.modality);
+        }
+        for word in part.words {
+            self.shown.push(word).ok()?;
+        }
+        if self.shown.words().len() < usize::from(part.total) {
+            return None;
+        }
+        let sentence = std::mem::replace(&mut self.shown, Sentence::new(GESTURE));
+        Some(Event::Shown {
+            sentence: Box::new(sentence),
+            answers: part.answers,
+        })
     }
 
     fn lose(&mut self, loss: Loss) -> Event {
@@ -253,6 +317,10 @@ impl GestureUnit {
             Ok(mut conversation) => {
                 match conversation.load(&self.vocabulary, &self.scene, &self.configuration) {
                     Ok(hello) => {
+                        // A wire that breaks right now is found broken by the next poll.
+                        if let Some(setup) = &self.hand {
+                            let _ = conversation.say_hand(setup);
+                        }
                         self.conversation = Some(conversation);
                         self.loaded = true;
                         self.hello = hello;
