@@ -19,7 +19,10 @@ pub fn has_image() -> bool {
 }
 
 /// A running board and its host link. Dropping it pulls the plug.
-pub struct Emulated(Box<dyn link::Wire>);
+pub struct Emulated {
+    host: Box<dyn link::Wire>,
+    sensor: Option<Box<dyn link::Wire>>,
+}
 
 impl Emulated {
     /// Boots the image and connects to its host link.
@@ -28,18 +31,47 @@ impl Emulated {
     /// When QEMU does not start or does not listen in time.
     #[must_use]
     pub fn boot() -> Self {
-        Self(link::open(&Address::Qemu).expect("the board boots"))
+        Self {
+            host: link::open(&Address::Qemu).expect("the board boots"),
+            sensor: None,
+        }
+    }
+
+    /// Boots the image and connects to its host link and its hand sensor's.
+    ///
+    /// # Panics
+    /// When QEMU does not start or does not listen in time.
+    #[must_use]
+    pub fn boot_with_sensor() -> Self {
+        let (host, sensor) = link::open_with_sensor().expect("the board boots");
+        Self {
+            host,
+            sensor: Some(sensor),
+        }
+    }
+
+    /// Gives bytes to the unit's sensor line.
+    ///
+    /// # Panics
+    /// When the board was booted without, or is gone.
+    pub fn sense(&mut self, bytes: &[u8]) {
+        let sensor = self.sensor.as_mut().expect("a board with a sensor line");
+        sensor
+            .write(bytes)
+            .expect("the board's sensor line takes bytes");
     }
 }
 
 impl Wire for Emulated {
     fn write(&mut self, bytes: &[u8]) {
-        self.0.write(bytes).expect("the board's link takes bytes");
+        self.host
+            .write(bytes)
+            .expect("the board's link takes bytes");
     }
 
     fn read(&mut self, patience: Duration) -> Vec<u8> {
         let mut bytes = vec![0; 4096];
-        let read = self.0.read(&mut bytes, patience);
+        let read = self.host.read(&mut bytes, patience);
         bytes.truncate(read.expect("the board's link is open"));
         bytes
     }

@@ -128,6 +128,20 @@ impl<W: Wire> Host<W> {
         }
     }
 
+    /// Takes what the unit has said, to be looked at later.
+    pub fn hear(&mut self) {
+        for byte in self.wire.read(Duration::ZERO) {
+            self.heard
+                .extend(self.link.receive(byte).map(|r| r.message));
+        }
+    }
+
+    /// What the unit has said that nobody has looked at.
+    pub fn heard(&mut self) -> Vec<ToHost> {
+        self.hear();
+        std::mem::take(&mut self.heard)
+    }
+
     /// Opens the conversation and gives the unit's Hello.
     pub fn hello(&mut self) -> Hello {
         let capacities = Unit::capacities();

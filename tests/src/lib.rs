@@ -3,6 +3,7 @@
 
 pub mod emulated;
 pub mod fuzz;
+pub mod gesturing;
 pub mod host;
 pub mod method;
 pub mod network;

@@ -7,7 +7,8 @@ use deictic_core::gesture::frame::{FINGERS, HandFrame, Side};
 use deictic_core::gesture::pointing::Mount;
 use deictic_core::gesture::shape::Shape;
 use deictic_core::gesture::wire::Sample;
-use rand::{Rng, RngExt};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
 use super::anatomy::{Anatomy, Bend, Place, Point, cross, dot, unit};
@@ -29,6 +30,14 @@ pub enum Act {
     Show(Shape),
     /// Moves the open hand: a name that [`super::movement::way`] knows.
     Move(String),
+}
+
+/// The samples of a made-up person who comes, does all that, and leaves; another person for every
+/// seed. The sensor stands at `mount`, the person misses by `aim` (rad) in two directions.
+#[must_use]
+pub fn made_up(seed: u64, mount: Mount, aim: f64, acts: &[Act], rate: f64) -> Vec<Sample> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    Session::new(mount, aim, &mut rng).perform(acts, rate)
 }
 
 /// Frames as they come into being.

@@ -74,6 +74,16 @@ pub enum WireError {
     Silent(#[source] io::Error),
 }
 
+/// Boots an emulated board and opens the wires to its host link and to its hand sensor's, in this
+/// order.
+///
+/// # Errors
+/// [`WireError`] with what to do about it.
+pub fn open_with_sensor() -> Result<(Box<dyn Wire>, Box<dyn Wire>), WireError> {
+    let (board, sensor) = qemu::Board::boot_with_sensor()?;
+    Ok((Box::new(board), Box::new(sensor)))
+}
+
 /// Opens the wire to a unit.
 ///
 /// # Errors

@@ -31,6 +31,18 @@ pub struct Board {
 impl Board {
     /// Boots the image and connects to its host link.
     pub fn boot() -> Result<Self, WireError> {
+        Self::boot_with(None)
+    }
+
+    /// Boots the image and connects to its host link and to its hand sensor's.
+    pub fn boot_with_sensor() -> Result<(Self, Stream), WireError> {
+        let port = free_port().map_err(WireError::Silent)?;
+        let board = Self::boot_with(Some(port))?;
+        let sensor = Stream::open("127.0.0.1", port)?;
+        Ok((board, sensor))
+    }
+
+    fn boot_with(sensor: Option<u16>) -> Result<Self, WireError> {
         let image = std::env::var_os(IMAGE_VARIABLE).unwrap_or_else(|| OsString::from(IMAGE));
         let image = PathBuf::from(image);
         if !image.is_file() {
@@ -38,16 +50,15 @@ impl Board {
                 path: image.display().to_string(),
             });
         }
+        let listening = |port| format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on");
         let port = free_port().map_err(WireError::Silent)?;
+        let sensor = sensor.map_or_else(|| "null".to_owned(), listening);
         let mut qemu = Command::new(QEMU)
             .args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
             .args(["-chardev", "null,id=log"])
             .args(["-semihosting-config", "enable=on,target=native,chardev=log"])
-            .args([
-                "-serial",
-                &format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on"),
-            ])
-            .args(["-serial", "null", "-kernel"])
+            .args(["-serial", &listening(port), "-serial", "null"])
+            .args(["-serial", &sensor, "-kernel"])
             .arg(image)
             .stdin(Stdio::null())
             .stdout(Stdio::null())

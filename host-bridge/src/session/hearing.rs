@@ -41,7 +41,14 @@ impl Session<'_> {
                 // What was said stays said.
                 self.happened.push(Happening::Fault(fault));
             }
-            unit::Event::Showing(showing) => self.showing = showing.then(clock::now),
+            unit::Event::Showing(true) => self.showing = Some(clock::now()),
+            unit::Event::Showing(false) => {
+                self.showing = None;
+                // What waited for the hand is decided now.
+                if let Some(due) = &mut self.due {
+                    *due = clock::now() + PATIENCE;
+                }
+            }
             unit::Event::Shown { sentence, answers } => self.shown(*sentence, answers),
             unit::Event::Hand(_) | unit::Event::HandStatistics(_) => {}
             unit::Event::Fault(fault) => {

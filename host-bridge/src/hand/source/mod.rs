@@ -17,7 +17,7 @@ pub use address::{Address, AddressError};
 pub use error::SourceError;
 
 use super::acting::acts;
-use super::session::Session;
+use super::session::made_up;
 use crate::scene::Tabletop;
 use crate::vocabulary::Lexicon;
 
@@ -61,10 +61,8 @@ impl Source {
             Address::File(path) => Ok(Self::played(recording::read(path)?)),
             Address::MadeUp { seed, acts: text } => {
                 let acts = acts(text, table, lexicon).map_err(SourceError::Acting)?;
-                let mut rng = <rand_chacha::ChaCha8Rng as rand::SeedableRng>::seed_from_u64(*seed);
                 let mount = table.hand().mount;
-                let samples = Session::new(mount, AIM, &mut rng).perform(&acts, RATE);
-                Ok(Self::played(samples))
+                Ok(Self::played(made_up(*seed, mount, AIM, &acts, RATE)))
             }
         }
     }

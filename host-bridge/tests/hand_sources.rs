@@ -1,0 +1,258 @@
+//! Hand sensors at this machine, against servers and files of the documented forms.
+
+use std::io::Write;
+use std::net::TcpListener;
+use std::time::{Duration, Instant};
+
+use deictic::hand::session::{Act, made_up};
+use deictic::hand::source::recording::{self, Recorder};
+use deictic::hand::source::{Address, Seen, Source, SourceError};
+use deictic::scene::{SceneFile, Tabletop};
+use deictic::vocabulary::Lexicon;
+use deictic_core::gesture::frame::HandFrame;
+use deictic_core::gesture::pointing::Mount;
+use deictic_core::gesture::shape::{self, Shape};
+use deictic_core::gesture::shape_table::NETWORK;
+use deictic_core::gesture::vector;
+use deictic_core::gesture::wire::Sample;
+use serde_json::{Value, json};
+use tungstenite::Message;
+
+fn table() -> (Tabletop, Lexicon) {
+    let lexicon = Lexicon::tabletop().unwrap();
+    let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
+    (table, lexicon)
+}
+
+fn open(address: &str) -> Result<Source, SourceError> {
+    let (table, lexicon) = table();
+    let address: Address = address.parse().unwrap();
+    Source::open(&address, &table, &lexicon)
+}
+
+/// Everything that a source gives until it ends.
+fn all(source: &Source) -> Vec<Result<Sample, SourceError>> {
+    let until = Instant::now() + Duration::from_secs(20);
+    let mut seen = Vec::new();
+    while Instant::now() < until {
+        match source.next() {
+            Seen::Sample(sample) => seen.push(Ok(*sample)),
+            Seen::Bad(error) => seen.push(Err(error)),
+            Seen::Nothing => std::thread::sleep(Duration::from_millis(2)),
+            Seen::End => return seen,
+        }
+    }
+    panic!("the source does not end")
+}
+
+fn person() -> Vec<Sample> {
+    let acts = [Act::Show(Shape::Pinch)];
+    made_up(4, Mount::DEFAULT, 0.03, &acts, 110.0)
+}
+
+/// A frame as the Leap Motion's service sends it, version 6.
+fn leap_json(sample: &Sample) -> Value {
+    let frame = match sample {
+        Sample::Nothing(time) => {
+            return json!({"id": 1, "timestamp": time, "hands": [], "pointables": [],
+                "currentFrameRate": 110.0});
+        }
+        Sample::Hand(frame) => frame,
+    };
+    let side = format!("{:?}", frame.side).to_lowercase();
+    let fingers = frame.fingers.iter().flatten().enumerate();
+    let pointables: Vec<Value> = fingers
+        .map(|(i, f)| {
+            json!({"id": 70 + i, "handId": 7, "type": i, "tool": false, "extended": true,
+                "tipPosition": f.tip, "mcpPosition": f.knuckle, "pipPosition": f.middle,
+                "dipPosition": f.tip, "carpPosition": f.knuckle, "length": 50.0})
+        })
+        .collect();
+    json!({"id": 1, "timestamp": frame.time, "currentFrameRate": 110.0,
+        "hands": [{"id": 7, "type": side, "palmPosition": frame.palm,
+            "palmVelocity": frame.velocity, "palmNormal": frame.normal,
+            "direction": frame.direction, "grabStrength": frame.grab,
+            "pinchStrength": frame.pinch, "confidence": frame.confidence,
+            "armWidth": 60.0, "timeVisible": 1.0}],
+        "pointables": pointables})
+}
+
+fn near(a: &HandFrame, b: &HandFrame) -> bool {
+    let joints = |f: &HandFrame| {
+        let fingers = f.fingers.iter().flatten();
+        let joints = fingers.flat_map(|f| [f.knuckle, f.middle, f.tip]);
+        joints.chain([f.palm]).collect::<Vec<_>>()
+    };
+    let far = joints(a).into_iter().zip(joints(b));
+    a.side == b.side
+        && a.time == b.time
+        && far.into_iter().all(|(a, b)| vector::distance(a, b) < 0.05)
+}
+
+#[test]
+fn the_leap_motions_service_is_read() {
+    let samples = person();
+    let messages: Vec<String> = samples.iter().map(|s| leap_json(s).to_string()).collect();
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    let service = std::thread::spawn(move || {
+        let (stream, _) = listener.accept().unwrap();
+        let mut socket = tungstenite::accept(stream).unwrap();
+        let version = r#"{"serviceVersion":"2.3.1+33747","version":6}"#;
+        socket.send(Message::text(version)).unwrap();
+        let said: Vec<String> = (0..2)
+            .map(|_| socket.read().unwrap().into_text().unwrap().to_string())
+            .collect();
+        let event = r#"{"event":{"type":"deviceEvent","state":{"attached":true}}}"#;
+        socket.send(Message::text(event)).unwrap();
+        for message in messages {
+            socket.send(Message::text(message)).unwrap();
+        }
+        socket.send(Message::text("{\"hands\": 3}")).unwrap();
+        socket.close(None).unwrap();
+        // The closing handshake.
+        while socket.read().is_ok() {}
+        said
+    });
+    let seen = all(&open(&format!("leap:ws://127.0.0.1:{port}/v6.json")).unwrap());
+    let said = service.join().unwrap();
+    assert_eq!(
+        said,
+        [r#"{"enableGestures":false}"#, r#"{"background":true}"#]
+    );
+    let (good, odd): (Vec<_>, Vec<_>) = seen.into_iter().partition(Result::is_ok);
+    assert_eq!(good.len(), samples.len());
+    for (got, meant) in good.iter().zip(&samples) {
+        let same = match (got, meant) {
+            (Ok(Sample::Hand(got)), Sample::Hand(meant)) => near(got, meant),
+            (Ok(Sample::Nothing(got)), Sample::Nothing(meant)) => got == meant,
+            _ => false,
+        };
+        assert!(same, "{got:?} {meant:?}");
+    }
+    assert!(
+        matches!(
+            &odd[..],
+            [Err(SourceError::Form { .. }), Err(SourceError::LeapGone(_))]
+        ),
+        "{odd:?}"
+    );
+}
+
+#[test]
+fn a_service_that_is_not_there_is_named() {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    drop(listener);
+    let url = format!("leap:ws://127.0.0.1:{port}/v6.json");
+    let error = open(&url).err().unwrap();
+    assert!(error.to_string().contains(&port.to_string()), "{error}");
+}
+
+/// A hand as MediaPipe's Hand Landmarker tells it, seen by a camera of 60 degrees at this distance
+/// (m): the joints of a made-up hand, with the outer joints where the line from middle to tip is.
+fn mediapipe_json(frame: &HandFrame, time: f64, distance: f32) -> Value {
+    let mut points = [frame.palm; 21];
+    points[0] = vector::sub(frame.palm, vector::scale(frame.direction, 60.0));
+    for (i, finger) in frame.fingers.iter().flatten().enumerate() {
+        let first = 1 + 4 * i;
+        let half = vector::scale(vector::add(finger.middle, finger.tip), 0.5);
+        let joints = match i {
+            0 => [frame.palm, finger.knuckle, finger.middle, finger.tip],
+            _ => [finger.knuckle, finger.middle, half, finger.tip],
+        };
+        points[first..first + 4].copy_from_slice(&joints);
+    }
+    // mm about the palm, y up, z towards the camera, to metres, y down, z away from it.
+    let world = points.map(|p| {
+        let [x, y, z] = vector::sub(p, frame.palm);
+        [x * 1e-3, -y * 1e-3, -z * 1e-3]
+    });
+    let image = world.map(|[x, y, z]| {
+        let far = distance + z;
+        json!({"x": 0.5 + 0.866 * x / far, "y": 0.5 + 0.866 * (y / far) * 640.0 / 480.0, "z": z})
+    });
+    json!({"timestamp_ms": time, "width": 640, "height": 480, "hands": [{
+        "handedness": format!("{:?}", frame.side), "score": 0.97,
+        "landmarks": image, "world_landmarks": world,
+    }]})
+}
+
+#[test]
+fn mediapipes_landmarks_are_read_from_a_server() {
+    let frames: Vec<HandFrame> = person()
+        .into_iter()
+        .filter_map(|s| match s {
+            Sample::Hand(frame) => Some(frame),
+            Sample::Nothing(_) => None,
+        })
+        .collect();
+    // In the middle the hand pinches.
+    let shown = frames[frames.len() / 2];
+    let lines = format!(
+        "{}\n\n{}\nnot json\n{}\n",
+        mediapipe_json(&shown, 0.0, 0.5),
+        mediapipe_json(&shown, 33.0, 0.5),
+        json!({"timestamp_ms": 66.0, "hands": []}),
+    );
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.write_all(lines.as_bytes()).unwrap();
+    });
+    let seen = all(&open(&format!("mediapipe:tcp:127.0.0.1:{port}")).unwrap());
+    let [
+        Ok(Sample::Hand(first)),
+        Ok(Sample::Hand(second)),
+        Err(odd),
+        Ok(Sample::Nothing(66_000)),
+    ] = &seen[..]
+    else {
+        panic!("{seen:?}");
+    };
+    assert!(matches!(odd, SourceError::Form { number: 4, .. }), "{odd}");
+    assert_eq!(first.side, shown.side);
+    assert_eq!((first.time, second.time), (0, 33_000));
+    assert!((first.palm[2] + 500.0).abs() < 60.0, "{:?}", first.palm);
+    assert!(vector::length(second.velocity) < 1.0);
+    assert!(
+        vector::dot(first.normal, shown.normal) > 0.9,
+        "{:?}",
+        first.normal
+    );
+    let p = NETWORK.classify(&shape::features(first).unwrap());
+    assert!(p[Shape::Pinch as usize] > 0.5, "{p:?}");
+}
+
+#[test]
+fn a_recording_gives_back_what_was_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pinch.hand");
+    let samples: Vec<Sample> = person().into_iter().take(60).collect();
+    let mut recorder = Recorder::create(&path).unwrap();
+    for sample in &samples {
+        recorder.push(sample).unwrap();
+    }
+    recorder.finish().unwrap();
+    assert_eq!(recording::read(&path).unwrap().len(), samples.len());
+    let seen = all(&open(&format!("file:{}", path.display())).unwrap());
+    assert_eq!(seen.len(), samples.len());
+
+    let mut bytes = std::fs::read(&path).unwrap();
+    bytes[200] ^= 4;
+    std::fs::write(&path, bytes).unwrap();
+    let error = recording::read(&path).unwrap_err();
+    assert!(
+        matches!(error, SourceError::Unsound { number: 3, .. }),
+        "{error}"
+    );
+    std::fs::write(&path, b"").unwrap();
+    assert!(matches!(recording::read(&path), Err(SourceError::Empty(_))));
+}
+
+#[test]
+fn a_made_up_person_can_only_point_at_what_is_there() {
+    let error = open("made-up:1:thumbsup teapot").err().unwrap();
+    assert!(error.to_string().contains("teapot"), "{error}");
+}
