@@ -43,7 +43,7 @@ impl Emulated {
     /// When QEMU does not start or does not listen in time.
     #[must_use]
     pub fn boot_with_sensor() -> Self {
-        let (host, sensor) = link::open_with_sensor().expect("the board boots");
+        let [host, sensor] = link::open_with_sensor().expect("the board boots");
         Self {
             host,
             sensor: Some(sensor),

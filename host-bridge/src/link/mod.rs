@@ -79,9 +79,9 @@ pub enum WireError {
 ///
 /// # Errors
 /// [`WireError`] with what to do about it.
-pub fn open_with_sensor() -> Result<(Box<dyn Wire>, Box<dyn Wire>), WireError> {
+pub fn open_with_sensor() -> Result<[Box<dyn Wire>; 2], WireError> {
     let (board, sensor) = qemu::Board::boot_with_sensor()?;
-    Ok((Box::new(board), Box::new(sensor)))
+    Ok([Box::new(board), Box::new(sensor)])
 }
 
 /// Opens the wire to a unit.

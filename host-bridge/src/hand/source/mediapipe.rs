@@ -17,6 +17,7 @@ use std::path::PathBuf;
 use deictic_core::gesture::frame::{Finger, HandFrame, Side};
 use deictic_core::gesture::vector::{self, Vector};
 use deictic_core::gesture::wire::{Sample, encode};
+use deictic_core::math;
 use serde::Deserialize;
 
 use super::{Source, SourceError};
@@ -243,8 +244,11 @@ fn place(line: &Line, hand: &Hand, world: &[Vector; 21]) -> Vector {
         for p in points {
             mean = vector::add(mean, vector::scale(*p, 1.0 / 21.0));
         }
-        let flat = |p: &Vector| (p[0] - mean[0]).powi(2) + (p[1] - mean[1]).powi(2);
-        points.iter().map(flat).sum::<f32>().sqrt()
+        let flat = |p: &Vector| {
+            let [x, y, _] = vector::sub(*p, mean);
+            x * x + y * y
+        };
+        math::sqrt(points.iter().map(flat).sum())
     };
     let depth = FOCAL * spread(world) / spread(&image).max(1e-4);
     let palm = vector::scale(vector::add(image[WRIST], image[MIDDLE]), 0.5);

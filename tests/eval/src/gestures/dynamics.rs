@@ -220,7 +220,7 @@ pub fn made_up(names: &[String], people: usize, takes: usize, seed: u64) -> Vec<
 /// Those of [`learn`].
 pub fn own_templates() -> anyhow::Result<Learned> {
     let performances = made_up(&own_names(), 40, 2, 11);
-    learn(&performances.iter().collect::<Vec<_>>(), 8)
+    Ok(learn(&performances.iter().collect::<Vec<_>>(), 8)?)
 }
 
 /// The templates as Rust source for core/src/gesture/stroke_table.rs.
