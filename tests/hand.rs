@@ -10,7 +10,9 @@ use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
 use deictic_core::gesture::counters::SampleCounters;
 use deictic_core::gesture::frame::Side;
+use deictic_core::gesture::mapping::{Gesture, STROKES};
 use deictic_core::gesture::shape::Shape;
+use deictic_core::gesture::stroke::Likely;
 use deictic_core::gesture::tracking::SILENT;
 use deictic_core::gesture::wire::{Sample, encode};
 use deictic_core::intent::Intent;
@@ -18,7 +20,9 @@ use deictic_core::protocol::hand::{HandFault, SampleBytes};
 use deictic_core::protocol::message::{Fault, Heartbeat};
 use deictic_core::time::Micros;
 use deictic_tests::emulated::{Emulated, has_image};
-use deictic_tests::gesturing::{OBJECTS, PICK, PUT, RATE, STOP, STORAGES, person, ready, separate};
+use deictic_tests::gesturing::{
+    OBJECTS, PICK, PUT, RATE, STOP, STORAGES, person, ready, separate, stroke,
+};
 use deictic_tests::host::{Host, Wire};
 
 /// A unit in this process whose clock is the test's.
@@ -115,7 +119,10 @@ fn put() -> [Act; 5] {
     ]
 }
 
-fn executed(outcome: &Outcome<8>) -> Option<(u8, Vec<(Category, u8)>)> {
+/// An action and its parameters.
+type Deed = (u8, Vec<(Category, u8)>);
+
+fn executed(outcome: &Outcome<8>) -> Option<Deed> {
     let Outcome::Execute(Intent { action, parameters }) = outcome else {
         return None;
     };
@@ -123,11 +130,11 @@ fn executed(outcome: &Outcome<8>) -> Option<(u8, Vec<(Category, u8)>)> {
     Some((*action, parameters.collect()))
 }
 
-fn all_executed(outcomes: &[Outcome<8>]) -> Vec<Option<(u8, Vec<(Category, u8)>)>> {
+fn all_executed(outcomes: &[Outcome<8>]) -> Vec<Option<Deed>> {
     outcomes.iter().map(executed).collect()
 }
 
-fn expected() -> Option<(u8, Vec<(Category, u8)>)> {
+fn expected() -> Option<Deed> {
     Some((PUT, vec![(Category::OBJECT, 1), (Category::STORAGE, 0)]))
 }
 
@@ -197,6 +204,29 @@ fn pointing_answers_the_question_which() {
     let decisions = table.decisions();
     let expected = Some((PICK, vec![(Category::OBJECT, 2)]));
     assert_eq!(all_executed(&decisions), [expected]);
+}
+
+#[test]
+fn a_movement_that_a_sensor_recognised_by_itself_is_a_command() {
+    let mut table = Table::new();
+    let Gesture::Stroke(swipe) = stroke("swipe-right") else {
+        unreachable!("a swipe is a stroke")
+    };
+    let mut likely = Likely {
+        gestures: [0.0; STROKES],
+        none: 0.1,
+    };
+    likely.gestures[usize::from(swipe)] = 0.9;
+    let wire = &mut table.0.wire;
+    wire.unit.recognise(wire.now, &likely);
+    let decisions = table.decisions();
+    // Put what?
+    assert!(matches!(&decisions[..], [Outcome::Ask(q)] if q.category == Category::OBJECT));
+    likely.gestures = [0.0; STROKES];
+    likely.none = 1.0;
+    let wire = &mut table.0.wire;
+    wire.unit.recognise(wire.now, &likely);
+    assert_eq!(table.decisions(), []);
 }
 
 #[test]
@@ -334,8 +364,8 @@ fn a_sensor_that_stops_is_told_once_and_nothing_is_done() {
     let heard = table.0.heard();
     let lost = ToHost::Fault(Fault::Hand(HandFault::SensorLost));
     assert_eq!(heard.iter().filter(|m| **m == lost).count(), 1);
-    let showing = heard.iter().filter(|m| matches!(m, ToHost::Showing(_)));
-    assert_eq!(showing.last(), Some(&ToHost::Showing(false)));
+    let mut showing = heard.iter().filter(|m| matches!(m, ToHost::Showing(_)));
+    assert_eq!(showing.next_back(), Some(&ToHost::Showing(false)));
     assert_eq!(table.counted().silences, 1);
     assert_eq!(table.decisions(), []);
 }

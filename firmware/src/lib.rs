@@ -16,6 +16,7 @@
 extern crate std;
 
 mod board;
+pub mod paj7620;
 mod turn;
 
 pub use board::Board;

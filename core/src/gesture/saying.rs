@@ -211,6 +211,24 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         self.push_action(action_word(&likelihoods, actions)?, action)
     }
 
+    /// A sensor that follows no hand has recognised a movement: it is all that is said, unless a hand
+    /// that is followed is in the middle of a sentence, to which it then belongs.
+    pub fn recognised<const F: usize, const E: usize>(
+        &mut self,
+        likely: &Likely<STROKES>,
+        context: &Context<'_, N, C, F, E>,
+    ) -> Option<Event> {
+        self.likely = Some(*likely);
+        let alone = !self.is_showing();
+        match self.stroke(likely, context)? {
+            Event::Closed(_) if alone => {
+                self.over = true;
+                Some(Event::Said)
+            }
+            event => Some(event),
+        }
+    }
+
     /// The stop gesture: everything else that was said is void.
     fn stop<const F: usize, const E: usize>(
         &mut self,

@@ -9,8 +9,9 @@ use super::taught::Taught;
 use crate::category::Category;
 use crate::gesture::context::{Context, Event};
 use crate::gesture::line::SensorLine;
-use crate::gesture::mapping::Mapping;
+use crate::gesture::mapping::{Mapping, STROKES};
 use crate::gesture::reader::HandReader;
+use crate::gesture::stroke::Likely;
 use crate::gesture::wire::{Sample, WireError, decode};
 use crate::protocol::hand::{HandFault, HandSettings, Meanings, TemplatesPart};
 use crate::protocol::message::{Fault, Loaded, SentencePart, ToHost, WORDS_PART};
@@ -157,6 +158,20 @@ impl<
             Ok(sample) => sample,
             Err(error) => return self.hand.reader.count_error(*error),
         };
+        self.show(|reader, context| reader.take(now, sample, context));
+    }
+
+    /// Takes a movement that a sensor has recognised by itself.
+    pub fn recognise(&mut self, now: Micros, likely: &Likely<STROKES>) {
+        self.show(|reader, context| reader.recognised(likely, context));
+        self.settle(now);
+    }
+
+    /// Lets the reader look at something.
+    fn show(
+        &mut self,
+        look: impl FnOnce(&mut HandReader<N, C, W>, &Context<'_, N, C, F, E>) -> Option<Event>,
+    ) {
         let (Some(vocabulary), Some(scene), true) =
             (self.loading.vocabulary(), self.loading.scene(), self.open)
         else {
@@ -170,7 +185,7 @@ impl<
             mount: &self.hand.settings.mount,
             aim: &self.hand.settings.aim,
         };
-        match self.hand.reader.take(now, sample, &context) {
+        match look(&mut self.hand.reader, &context) {
             Some(Event::Said) => self.hand.spoken = Some(Spoken::Sentence),
             Some(Event::Stop) => self.hand.spoken = Some(Spoken::Stop),
             _ => {}
