@@ -33,7 +33,8 @@ fn judge(merged: &Merged, threshold: Threshold, margin: &mut Margin) -> (Vec<usi
     let alone = merged.word.len() == 1;
     for (option, (&w, &h)) in merged.word.iter().zip(&merged.h).enumerate() {
         let (is_clear, is_noise) = match threshold {
-            Threshold::None => (true, false),
+            // Risk is a matter of whole intents, which this method does not have.
+            Threshold::None | Threshold::Risk { .. } => (true, false),
             _ if alone => (true, false),
             Threshold::Entropy => (
                 margin.below(h, merged.entropy),
