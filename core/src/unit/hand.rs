@@ -13,7 +13,7 @@ use crate::gesture::mapping::{Mapping, STROKES};
 use crate::gesture::reader::HandReader;
 use crate::gesture::stroke::Likely;
 use crate::gesture::wire::{Sample, WireError, decode};
-use crate::protocol::hand::{HandFault, HandSettings, Meanings, TemplatesPart};
+use crate::protocol::hand::{HandFault, HandSettings, Meanings, SampleBytes, TemplatesPart};
 use crate::protocol::message::{Fault, Loaded, SentencePart, ToHost, WORDS_PART};
 use crate::sentence::{GESTURE, Sentence};
 use crate::time::Micros;
@@ -35,6 +35,8 @@ pub struct Hand<const N: usize, const C: usize, const W: usize> {
     mapping: Mapping,
     pub(super) settings: HandSettings,
     pub(super) taught: Taught,
+    /// A sample that came through the host and was not read yet; empty when there is none.
+    pub(super) pending: SampleBytes,
     spoken: Option<Spoken>,
     /// Whether the host was told that the hand is in the middle of a sentence.
     told: bool,
@@ -56,6 +58,7 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
             mapping: Mapping::new(),
             settings: HandSettings::DEFAULT,
             taught: Taught::new(),
+            pending: SampleBytes::new(),
             spoken: None,
             told: false,
         }
@@ -80,6 +83,7 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
     /// Forgets the hand and what it was saying.
     pub fn forget(&mut self) {
         self.reader.forget();
+        self.pending.clear();
         self.spoken = None;
         self.told = false;
     }
@@ -116,6 +120,14 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
         self.taught.take(part)
     }
 
+    /// Keeps a sample that came through the host, to be read next.
+    pub(super) fn keep_sample(&mut self, bytes: &[u8]) {
+        self.pending.clear();
+        if bytes.is_empty() || self.pending.extend_from_slice(bytes).is_err() {
+            self.reader.count_error(WireError::Length(0));
+        }
+    }
+
     pub(super) fn take_spoken(&mut self) -> Option<Spoken> {
         self.spoken.take()
     }
@@ -146,10 +158,13 @@ impl<
         }
     }
 
-    /// Takes a sample that came through the host.
+    /// Reads the sample that came through the host, when the message that held it is out of the way: the
+    /// stack holds one of the two.
     #[inline(never)]
-    pub(super) fn take_sample(&mut self, now: Micros, bytes: &[u8]) {
-        self.read_hand(now, &decode(bytes));
+    pub(super) fn take_sample(&mut self, now: Micros) {
+        let sample = decode(&self.hand.pending);
+        self.hand.pending.clear();
+        self.read_hand(now, &sample);
     }
 
     #[inline(never)]

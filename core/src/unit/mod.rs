@@ -248,7 +248,7 @@ impl<
                 Ok(())
             }
             ToUnit::Sample(bytes) => {
-                self.take_sample(now, bytes);
+                self.hand.keep_sample(bytes);
                 Ok(())
             }
             ToUnit::Meanings(meanings) => self.take_meanings(meanings),

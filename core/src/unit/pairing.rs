@@ -147,6 +147,9 @@ impl<
         if core::mem::take(&mut self.pairing.complete) {
             self.look_at(now, Source::Host, self.pairing.answers);
         }
+        if !self.hand.pending.is_empty() {
+            self.take_sample(now);
+        }
         if let Some(spoken) = self.hand.take_spoken() {
             self.look_at_hand(now, spoken);
         }
