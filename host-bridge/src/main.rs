@@ -47,15 +47,9 @@ impl Command {
             Self::Play(play) => play.run()?,
             Self::Setups(setups) => setups.run()?,
             Self::Scene(scene) => scene.run()?,
+            Self::Hand(hand) => hand.run()?,
+            Self::Gestures(gestures) => gestures.run()?,
         }
         Ok(ExitCode::SUCCESS)
-    match Cli::parse().command {
-        Command::Decide(decide) => decide.run()?,
-        Command::Run(run) => return run.run().map(ExitCode::from),
-        Command::Play(play) => play.run()?,
-        Command::Scene(scene) => scene.run()?,
-        Command::Setups(setups) => setups.run()?,
-        Command::Hand(hand) => hand.run()?,
-        Command::Gestures(gestures) => gestures.run()?,
     }
 }
