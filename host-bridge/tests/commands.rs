@@ -232,6 +232,7 @@ fn the_demo_plays_as_it_is_told() {
     assert_eq!(
         played,
         [
+            "hand: push cup: done",
             "aligned: pour can bowl: done",
             "aligned: put-into can drawer: done",
             "contradicting: stack cube foam: done",
