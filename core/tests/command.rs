@@ -76,11 +76,12 @@ fn from_robot() -> Vec<FromRobot> {
     let [a, b, c] = [-2.8973, 0.0, 3.7525].map(Angle::of_radians);
     vec![
         FromRobot::RobotBeat(RobotBeat {
-            boot: 1,
+            run_low: 1,
             number,
             state: State::Held,
             outcome: Outcome::Running,
         }),
+        FromRobot::Welcome(Welcome { run: 9, boot: 1 }),
         Accepted { id }.into(),
         FromRobot::Refused(Refused {
             id,
@@ -100,10 +101,19 @@ fn from_robot() -> Vec<FromRobot> {
             steps: 5,
             percent: 40,
         }),
-        Done { id }.into(),
-        Stopped { id, text }.into(),
+        FromRobot::Done(Done {
+            number,
+            run_low: 7,
+            groups: 2,
+        }),
+        FromRobot::Stopped(Stopped {
+            id,
+            groups: 1,
+            text,
+        }),
         FromRobot::Failed(Failed {
             id,
+            groups: 0,
             fault: Fault::Collision,
             text,
         }),
@@ -118,6 +128,7 @@ fn from_robot() -> Vec<FromRobot> {
         }),
         FromRobot::Changed(Changed {
             number,
+            run_low: 7,
             group: 1,
             changes: 2,
         }),

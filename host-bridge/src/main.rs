@@ -23,6 +23,7 @@ enum Command {
     Setups(cmd::setups::Setups),
     Hand(cmd::hand::Hand),
     Gestures(cmd::gestures::Gestures),
+    RobotSim(cmd::robot_sim::RobotSim),
 }
 
 fn main() -> miette::Result<ExitCode> {
@@ -46,6 +47,7 @@ impl Command {
             Self::Run(run) => return run.run().map(ExitCode::from),
             Self::Play(play) => play.run()?,
             Self::Setups(setups) => setups.run()?,
+            Self::RobotSim(robot_sim) => robot_sim.run()?,
             Self::Scene(scene) => scene.run()?,
             Self::Hand(hand) => hand.run()?,
             Self::Gestures(gestures) => gestures.run()?,

@@ -124,6 +124,8 @@ choice! {
         OtherVocabulary = 19,
         /// For another reason, which the text says.
         Other = 20,
+        /// Another thing is in the way.
+        InTheWay = 21,
     }
 }
 

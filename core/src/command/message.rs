@@ -221,14 +221,21 @@ messages! {
     FromRobot {
         /// The robot lives.
         0x110 RobotBeat {
-            /// Different after every start.
-            boot: u16,
-            /// The newest command it has taken of the run it hears.
+            /// The low half of the run that it hears.
+            run_low: u16,
+            /// The newest command it has taken of that run.
             number: Number,
             /// How it is.
             state: State,
             /// How that command has ended, or that it has not.
             outcome: Outcome,
+        }
+        /// The robot hears this run from now on, and has nothing of it yet.
+        0x111 Welcome {
+            /// The run.
+            run: u32,
+            /// Different after every start of the robot.
+            boot: u16,
         }
         /// The command is begun.
         0x112 Accepted {
@@ -270,13 +277,19 @@ messages! {
         }
         /// The command is done.
         0x116 Done {
-            /// Its name.
-            id: Id,
+            /// Its number.
+            number: Number,
+            /// The low half of its run.
+            run_low: u16,
+            /// How many of its motions have changed something.
+            groups: u8,
         }
         /// The command was stopped on the way.
         0x117 Stopped {
             /// Its name.
             id: Id,
+            /// How many of its motions have changed something.
+            groups: u8,
             /// In which motion.
             text: Text,
         }
@@ -284,6 +297,8 @@ messages! {
         0x119 Failed {
             /// Its name.
             id: Id,
+            /// How many of its motions have changed something.
+            groups: u8,
             /// What went wrong.
             fault: Fault,
             /// In words.
@@ -309,6 +324,8 @@ messages! {
         0x122 Changed {
             /// The command's number.
             number: Number,
+            /// The low half of its run.
+            run_low: u16,
             /// How many motions of the command have changed something, this one included.
             group: u8,
             /// How many things it has told.

@@ -13,6 +13,7 @@ mod pictures;
 pub mod play;
 mod printer;
 mod profile;
+pub mod robot_sim;
 pub mod run;
 pub mod scene;
 mod scenes;

@@ -35,10 +35,11 @@ use crate::session::{Happening, Session};
 pub struct Play {
     /// The script (TOML); without it the tabletop session that comes with the program
     script: Option<PathBuf>,
-    /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, qemu, or inside for none at all
+    /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, can:INTERFACE, slcan:PORT, qemu, or inside for none
     #[arg(long, value_name = "ADDRESS", default_value = "inside")]
     board: Address,
-    /// The robot: sim, or fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
+    /// The robot: sim, can:INTERFACE, slcan:PORT, serial:PORT@BAUD, tcp:HOST:PORT, or
+    /// fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
     #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
     robot: robot::address::Address,
     /// How many times as fast as a careful arm the simulated one moves
@@ -92,7 +93,7 @@ impl Play {
         };
         let address = self.board.clone();
         let opener = Box::new(move || link::open(&address));
-        let robot = reach(&self.robot, self.haste)?;
+        let robot = reach(&self.robot, &lexicon, self.haste)?;
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let printer = Printer {
             json: self.json,

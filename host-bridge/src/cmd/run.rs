@@ -52,10 +52,11 @@ const TURN: Duration = Duration::from_millis(10);
 #[derive(Args, Clone, Debug)]
 #[command(verbatim_doc_comment)]
 pub struct Run {
-    /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, qemu, or inside for none at all
+    /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, can:INTERFACE, slcan:PORT, qemu, or inside for none
     #[arg(long, value_name = "ADDRESS")]
     board: Address,
-    /// The robot: sim, or fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
+    /// The robot: sim, can:INTERFACE, slcan:PORT, serial:PORT@BAUD, tcp:HOST:PORT, or
+    /// fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
     #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
     robot: robot::address::Address,
     /// How many times as fast as a careful arm the simulated one moves
@@ -120,7 +121,7 @@ impl Run {
             explain: self.explain,
             ..Configuration::DEFAULT
         };
-        let robot = reach(&self.robot, self.haste)?;
+        let robot = reach(&self.robot, &lexicon, self.haste)?;
         let address = self.board.clone();
         let opener = Box::new(move || link::open(&address));
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;

@@ -1,7 +1,8 @@
-//! The wires that reach a gesture unit: a serial port, a TCP stream, the unit's image in
+//! The wires that reach a gesture unit: a serial port, a TCP stream, a CAN bus, the unit's image in
 //! QEMU, or none at all.
 
 mod address;
+pub mod bus;
 mod inside;
 mod qemu;
 mod serial;
@@ -10,9 +11,10 @@ mod tcp;
 use std::io;
 use std::time::Duration;
 
-pub use address::{Address, AddressError};
+pub use address::{Address, AddressError, Line, LineError};
 pub use inside::Inside;
 pub use qemu::{IMAGE_VARIABLE, QEMU};
+pub use serial::Pair;
 
 /// A stream of bytes to a unit and back.
 pub trait Wire: Send {
@@ -55,6 +57,19 @@ pub enum WireError {
         #[source]
         cause: io::Error,
     },
+    /// The CAN bus cannot be used.
+    #[error("cannot use the CAN bus {bus}")]
+    #[diagnostic(help(
+        "`ip link` shows the interfaces; a real one needs `ip link set can0 up type can bitrate 1000000`, a virtual \
+         one `ip link add vcan0 type vcan` and `ip link set vcan0 up`"
+    ))]
+    Bus {
+        /// The interface, or the adapter's line.
+        bus: String,
+        /// What the system said.
+        #[source]
+        cause: io::Error,
+    },
     /// QEMU could not be started.
     #[error("cannot start {QEMU}")]
     #[diagnostic(help("`cargo xtask setup` installs it"))]
@@ -89,10 +104,60 @@ pub fn open_with_sensor() -> Result<[Box<dyn Wire>; 2], WireError> {
 /// # Errors
 /// [`WireError`] with what to do about it.
 pub fn open(address: &Address) -> Result<Box<dyn Wire>, WireError> {
-    match address {
-        Address::Serial { path, baud } => Ok(Box::new(serial::Port::open(path, *baud)?)),
-        Address::Tcp { host, port } => Ok(Box::new(tcp::Stream::open(host, *port)?)),
-        Address::Qemu => Ok(Box::new(qemu::Board::boot()?)),
-        Address::Inside => Ok(Box::new(Inside::start())),
+    Ok(match address {
+        Address::Line(line) => open_line(line)?,
+        Address::Can(interface) => Box::new(bus::Node::new(open_interface(interface)?)),
+        Address::Slcan(line) => Box::new(bus::Node::new(open_adapter(line)?)),
+        Address::Qemu => Box::new(qemu::Board::boot()?),
+        Address::Inside => Box::new(Inside::start()),
+    })
+}
+
+/// Opens a stream of bytes.
+///
+/// # Errors
+/// [`WireError`] with what to do about it.
+pub fn open_line(line: &Line) -> Result<Box<dyn Wire>, WireError> {
+    Ok(match line {
+        Line::Serial { path, baud } => Box::new(serial::Port::open(path, *baud)?),
+        Line::Tcp { host, port } => Box::new(tcp::Stream::open(host, *port)?),
+    })
+}
+
+/// A stream that somebody has opened to us.
+///
+/// # Errors
+/// When the stream is gone already.
+pub fn over(stream: std::net::TcpStream) -> io::Result<Box<dyn Wire>> {
+    Ok(Box::new(tcp::Stream::over(stream)?))
+}
+
+/// Opens the bus behind a LAWICEL adapter at a line.
+///
+/// # Errors
+/// [`WireError`] with what to do about it.
+pub fn open_adapter(line: &Line) -> Result<Box<dyn bus::Bus>, WireError> {
+    let wire = open_line(line)?;
+    match bus::Client::open(wire) {
+        Ok(client) => Ok(Box::new(client)),
+        Err(cause) => Err(WireError::Bus {
+            bus: line.to_string(),
+            cause,
+        }),
     }
+}
+
+/// Opens a CAN interface of this machine.
+///
+/// # Errors
+/// [`WireError`] with what to do about it.
+pub fn open_interface(interface: &str) -> Result<Box<dyn bus::Bus>, WireError> {
+    #[cfg(target_os = "linux")]
+    let opened = bus::Socket::open(interface).map(|socket| Box::new(socket) as Box<dyn bus::Bus>);
+    #[cfg(not(target_os = "linux"))]
+    let opened = Err(io::Error::from(io::ErrorKind::Unsupported));
+    opened.map_err(|cause| WireError::Bus {
+        bus: interface.to_owned(),
+        cause,
+    })
 }

@@ -1,9 +1,11 @@
 //! A unit at a serial port.
 
+use std::fs::File;
 use std::io::{self, ErrorKind};
+use std::os::unix::fs::OpenOptionsExt;
 use std::time::Duration;
 
-use serialport::SerialPort;
+use serialport::{SerialPort, TTYPort};
 
 use super::{Wire, WireError};
 
@@ -23,8 +25,60 @@ impl Port {
     }
 }
 
+/// How long a port may take to take bytes: at 115,200 baud 2,000 bytes take this long.
+const WRITING: Duration = Duration::from_millis(200);
+
+/// A pseudo-terminal: what one side writes, a program that opens the other side reads.
+pub struct Pair {
+    ours: TTYPort,
+    path: String,
+    /// The other side, held open, so that a program that goes does not seem to pull the cable.
+    _theirs: File,
+}
+
+/// `O_NOCTTY`: a terminal that is opened does not become ours.
+const NOT_OURS: i32 = 0x100;
+
+impl Pair {
+    /// A new one.
+    ///
+    /// # Errors
+    /// When the system has none.
+    pub fn open() -> io::Result<Self> {
+        let (ours, theirs) = TTYPort::pair()?;
+        let path = theirs.name().unwrap_or_default();
+        // The port itself is locked, so that nobody else could open it.
+        let held = File::options()
+            .read(true)
+            .write(true)
+            .custom_flags(NOT_OURS)
+            .open(&path)?;
+        Ok(Self {
+            ours,
+            path,
+            _theirs: held,
+        })
+    }
+
+    /// What a program opens as a serial port.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Our side.
+    ///
+    /// # Errors
+    /// When the system has no more files.
+    pub fn wire(&self) -> io::Result<Box<dyn Wire>> {
+        let ours = self.ours.try_clone_native()?;
+        Ok(Box::new(Port(Box::new(ours))))
+    }
+}
+
 impl Wire for Port {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.set_timeout(WRITING)?;
         self.0.write_all(bytes)
     }
 

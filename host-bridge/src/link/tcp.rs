@@ -25,16 +25,20 @@ impl Stream {
             }
             Err(last)
         };
-        let stream = connect().and_then(|stream| {
-            // A frame is small and waited for: without this it would sit in the sender for 40 ms.
-            stream.set_nodelay(true)?;
-            stream.set_write_timeout(Some(PATIENCE))?;
-            Ok(stream)
-        });
-        stream.map(Self).map_err(|cause| WireError::Tcp {
+        let stream = connect().and_then(Self::over);
+        stream.map_err(|cause| WireError::Tcp {
             address: format!("{host}:{port}"),
             cause,
         })
+    }
+
+    /// A stream that is already there.
+    pub fn over(stream: TcpStream) -> io::Result<Self> {
+        stream.set_nonblocking(false)?;
+        // A frame is small and waited for: without this it would sit in the sender for 40 ms.
+        stream.set_nodelay(true)?;
+        stream.set_write_timeout(Some(PATIENCE))?;
+        Ok(Self(stream))
     }
 }
 

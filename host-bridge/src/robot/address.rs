@@ -6,6 +6,8 @@ use std::str::FromStr;
 use super::Robot;
 use super::fci::{Fci, FciFault};
 use super::sim::Sim;
+use super::way::{self, Way};
+use crate::vocabulary::Lexicon;
 
 /// Where a robot is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,12 +22,16 @@ pub enum Address {
         /// Whether this machine must do real time.
         realtime: bool,
     },
+    /// One that speaks the command set: `can:can0`, `slcan:/dev/ttyACM0`, `serial:/dev/ttyACM0`,
+    /// `tcp:127.0.0.1:7700`.
+    Over(Way),
 }
 
 /// An address that cannot be understood.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is not the address of a robot; write sim, fci:172.16.0.2, or fci:172.16.0.2,no-realtime"
+    "`{0}` is not the address of a robot; write sim, can:can0, slcan:/dev/ttyACM0, serial:/dev/ttyACM0, \
+     tcp:127.0.0.1:7700, fci:172.16.0.2, or fci:172.16.0.2,no-realtime"
 )]
 pub struct AddressError(String);
 
@@ -36,6 +42,10 @@ pub enum RobotError {
     #[error("{0}")]
     #[diagnostic(help("{}", .0.remedy()))]
     Fci(FciFault),
+    /// It cannot be reached over its link.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Over(#[from] way::ReachError),
 }
 
 /// What is written behind a host that may be commanded without real time.
@@ -49,7 +59,9 @@ impl FromStr for Address {
         if written == "sim" {
             return Ok(Self::Sim);
         }
-        let rest = written.strip_prefix("fci:").ok_or_else(error)?;
+        let Some(rest) = written.strip_prefix("fci:") else {
+            return written.parse().map(Self::Over).map_err(|_| error());
+        };
         let host = rest.strip_suffix(NO_REALTIME).unwrap_or(rest);
         if host.is_empty() || host.contains(',') {
             return Err(error());
@@ -68,6 +80,7 @@ impl fmt::Display for Address {
             Self::Fci { host, realtime } => {
                 write!(f, "fci:{host}{}", if *realtime { "" } else { NO_REALTIME })
             }
+            Self::Over(way) => way.fmt(f),
         }
     }
 }
@@ -76,12 +89,17 @@ impl fmt::Display for Address {
 ///
 /// # Errors
 /// [`RobotError`] with what to do about it.
-pub fn reach(address: &Address, haste: f32) -> Result<Box<dyn Robot>, RobotError> {
+pub fn reach(
+    address: &Address,
+    lexicon: &Lexicon,
+    haste: f32,
+) -> Result<Box<dyn Robot>, RobotError> {
     Ok(match address {
         Address::Sim => Box::new(Sim::new(haste)),
         Address::Fci { host, realtime } => {
             Box::new(Fci::connect(host, host, *realtime).map_err(RobotError::Fci)?)
         }
+        Address::Over(way) => Box::new(way::reach(way, lexicon)?),
     })
 }
 
@@ -91,7 +109,12 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        for written in ["sim", "fci:172.16.0.2", "fci:panda,no-realtime"] {
+        for written in [
+            "sim",
+            "fci:172.16.0.2",
+            "fci:panda,no-realtime",
+            "can:vcan0",
+        ] {
             assert_eq!(written.parse::<Address>().unwrap().to_string(), written);
         }
     }
@@ -105,6 +128,7 @@ mod tests {
             "fci:,no-realtime",
             "fci:a,b",
             "simulated",
+            "can:",
         ] {
             assert!(written.parse::<Address>().is_err(), "{written}");
         }

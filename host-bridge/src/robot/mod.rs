@@ -3,14 +3,17 @@
 
 pub mod address;
 mod check;
+pub mod end;
 pub mod fci;
 mod given;
 mod hold;
 mod motion;
 pub mod panda;
 mod plan;
+pub mod remote;
 pub mod sim;
 mod skill;
+pub mod way;
 
 pub use deictic_core::command::code::Fault;
 use deictic_core::large::Intent;
@@ -140,6 +143,21 @@ pub enum Refusal {
     /// A distance or angle that no motion has.
     #[error("{0} is beyond what the arm does in one motion")]
     TooFar(String),
+    /// It is held in the middle of another command.
+    #[error("the robot is held")]
+    Held,
+    /// It has a fault that nobody has seen to.
+    #[error("the robot has a fault")]
+    Faulted,
+    /// It is not heard.
+    #[error("the robot does not answer")]
+    Gone,
+    /// It goes by another vocabulary.
+    #[error("the robot goes by another vocabulary")]
+    OtherVocabulary,
+    /// For another reason, in the robot's words.
+    #[error("{0}")]
+    Other(String),
 }
 
 impl Refusal {
@@ -168,6 +186,11 @@ impl Refusal {
             Self::InTheWay(thing) => format!("move the {thing} away first, or go another way"),
             Self::Arm { remedy, .. } => (*remedy).into(),
             Self::TooFar(_) => "say it in smaller steps".into(),
+            Self::Held => "say \"resume\" or \"stop\" first".into(),
+            Self::Faulted => "see to it, then say \"clear\"".into(),
+            Self::Gone => "look at the robot's power and the cable".into(),
+            Self::OtherVocabulary => "start robot and bridge with the same vocabulary".into(),
+            Self::Other(_) => "look at the robot".into(),
         }
     }
 }
@@ -242,7 +265,7 @@ pub enum Event {
 }
 
 /// An arm with a gripper.
-pub trait Robot {
+pub trait Robot: Send {
     /// Begins a command, or says why not; nothing moves then.
     ///
     /// # Errors

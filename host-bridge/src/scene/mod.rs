@@ -77,6 +77,21 @@ impl Tabletop {
         self.hand
     }
 
+    /// A table with these things under a version that somebody else counts.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first thing that does not fit the vocabulary.
+    pub fn numbered(
+        version: u32,
+        things: impl IntoIterator<Item = large::Entity>,
+        lexicon: &Lexicon,
+    ) -> Result<Self, SceneError> {
+        Ok(Self {
+            scene: scene(version, things, lexicon)?,
+            hand: HandSettings::DEFAULT,
+        })
+    }
+
     /// What the core makes of it.
     #[must_use]
     pub fn scene(&self) -> &large::Scene {

@@ -1,0 +1,76 @@
+//! The adapter's end of a serial line: a node that is alone on its bus with whoever holds the line's
+//! other end.
+
+use std::collections::VecDeque;
+use std::io;
+use std::time::{Duration, Instant};
+
+use deictic_core::can::Frame;
+use deictic_core::slcan::{self, Wanted, line};
+
+use super::Bus;
+use crate::link::Wire;
+
+/// A node behind such a line.
+pub struct Adapter {
+    wire: Box<dyn Wire>,
+    state: slcan::Adapter,
+    arrived: VecDeque<Frame>,
+}
+
+impl Adapter {
+    /// Waits for a client at the other end of the line.
+    #[must_use]
+    pub fn new(wire: Box<dyn Wire>) -> Self {
+        Self {
+            wire,
+            state: slcan::Adapter::new(),
+            arrived: VecDeque::new(),
+        }
+    }
+
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let mut answers = Vec::new();
+        for &byte in bytes {
+            let Some((wanted, answer)) = self.state.take(byte) else {
+                continue;
+            };
+            answers.extend_from_slice(answer);
+            if let Wanted::Send(frame) = wanted {
+                self.arrived.push_back(frame);
+            }
+        }
+        if answers.is_empty() {
+            Ok(())
+        } else {
+            self.wire.write(&answers)
+        }
+    }
+}
+
+impl Bus for Adapter {
+    /// A frame for a line that no client has opened is lost, as on a bus without other nodes.
+    fn send(&mut self, frame: &Frame) -> io::Result<()> {
+        if self.state.is_open() {
+            self.wire.write(&line(frame))
+        } else {
+            Ok(())
+        }
+    }
+
+    fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>> {
+        let until = Instant::now() + patience;
+        let mut buffer = [0; 512];
+        loop {
+            if let Some(frame) = self.arrived.pop_front() {
+                return Ok(Some(frame));
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            let read = self.wire.read(&mut buffer, left)?;
+            self.take(buffer.get(..read).unwrap_or(&[]))?;
+            if read == 0 && self.arrived.is_empty() && Instant::now() >= until {
+                return Ok(None);
+            }
+        }
+    }
+}

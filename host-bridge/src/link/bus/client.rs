@@ -1,0 +1,88 @@
+//! A bus behind an adapter at a serial line, reached in LAWICEL's text protocol.
+
+use std::collections::VecDeque;
+use std::io;
+use std::time::{Duration, Instant};
+
+use deictic_core::can::Frame;
+use deictic_core::slcan::{Heard, Lines, line};
+
+use super::{Bus, BusFault};
+use crate::link::Wire;
+
+/// How many refusals in a row an adapter may give before its bus counts as gone.
+const REFUSALS: u32 = 16;
+
+/// The bridge's end of such a line.
+pub struct Client {
+    wire: Box<dyn Wire>,
+    lines: Lines,
+    arrived: VecDeque<Frame>,
+    refusals: u32,
+    /// Lines that made no sense.
+    damaged: u64,
+}
+
+impl Client {
+    /// Closes whatever was open, sets 1 Mbit/s and opens the bus.
+    ///
+    /// # Errors
+    /// When the wire is gone.
+    pub fn open(mut wire: Box<dyn Wire>) -> io::Result<Self> {
+        // The first CR ends whatever half a line the adapter may have heard before.
+        wire.write(b"\r\rC\rS8\rO\r")?;
+        Ok(Self {
+            wire,
+            lines: Lines::new(),
+            arrived: VecDeque::new(),
+            refusals: 0,
+            damaged: 0,
+        })
+    }
+
+    /// How many lines made no sense.
+    #[must_use]
+    pub fn damaged(&self) -> u64 {
+        self.damaged
+    }
+
+    fn hear(&mut self, bytes: &[u8]) -> io::Result<()> {
+        for &byte in bytes {
+            match self.lines.hear(byte) {
+                None => {}
+                Some(Heard::Frame(frame)) => self.arrived.push_back(frame),
+                Some(Heard::Other) => self.refusals = 0,
+                Some(Heard::Damaged) => self.damaged = self.damaged.saturating_add(1),
+                Some(Heard::Refused) => {
+                    self.refusals += 1;
+                    if self.refusals >= REFUSALS {
+                        return Err(BusFault::Refused.into());
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Bus for Client {
+    fn send(&mut self, frame: &Frame) -> io::Result<()> {
+        self.wire.write(&line(frame))
+    }
+
+    fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>> {
+        let until = Instant::now() + patience;
+        let mut buffer = [0; 512];
+        loop {
+            if let Some(frame) = self.arrived.pop_front() {
+                return Ok(Some(frame));
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            let read = self.wire.read(&mut buffer, left)?;
+            self.hear(buffer.get(..read).unwrap_or(&[]))?;
+            if read == 0 && self.arrived.is_empty() && Instant::now() >= until {
+                return Ok(None);
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Over what the command set is spoken, and how a robot is reached there.
+
+use std::fmt;
+use std::io;
+use std::str::FromStr;
+use std::time::Duration;
+
+use deictic_core::command::parcel::Sender;
+
+use super::remote::{Carrier, OnBus, OnWire, Opener, Remote};
+use crate::link::{self, Line, WireError};
+use crate::vocabulary::Lexicon;
+
+/// How long a robot may take to show that it lives.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Over what the command set is spoken.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// A CAN bus of this machine: `can:can0`.
+    Can(String),
+    /// A CAN bus behind a LAWICEL adapter: `slcan:/dev/ttyACM0`, `slcan:tcp:127.0.0.1:7700`.
+    Slcan(Line),
+    /// A stream: `serial:/dev/ttyACM0`, `tcp:127.0.0.1:7700`.
+    Line(Line),
+}
+
+/// A way that cannot be understood.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{0}` is not a link that the command set goes over; write can:can0, slcan:/dev/ttyACM0, serial:/dev/ttyACM0 or \
+     tcp:127.0.0.1:7700"
+)]
+pub struct WayError(String);
+
+/// A robot cannot be reached over a link.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum ReachError {
+    /// The link to it cannot be opened.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Wire(#[from] WireError),
+    /// The link failed at once.
+    #[error("the link to the robot at {way} fails")]
+    #[diagnostic(help("look at the cable"))]
+    Broken {
+        /// Where it was to be.
+        way: Way,
+        /// What the system said.
+        #[source]
+        cause: io::Error,
+    },
+    /// Nobody answers over it.
+    #[error("no robot answers at {0}")]
+    #[diagnostic(help(
+        "is it switched on, is it the right link, and does no other bridge use it? `deictic robot-sim --listen` \
+         starts a simulated one"
+    ))]
+    Silent(Way),
+}
+
+impl FromStr for Way {
+    type Err = WayError;
+
+    fn from_str(written: &str) -> Result<Self, WayError> {
+        let error = || WayError(written.to_owned());
+        match written.split_once(':') {
+            Some(("can", interface)) if !interface.is_empty() => {
+                Ok(Self::Can(interface.to_owned()))
+            }
+            Some(("slcan", line)) => Line::of_adapter(line).map(Self::Slcan).ok_or_else(error),
+            _ => written.parse().map(Self::Line).map_err(|_| error()),
+        }
+    }
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Can(interface) => write!(f, "can:{interface}"),
+            Self::Slcan(line) => write!(f, "slcan:{line}"),
+            Self::Line(line) => line.fmt(f),
+        }
+    }
+}
+
+/// Reaches a robot that speaks the command set.
+///
+/// # Errors
+/// [`ReachError`] with what to do about it.
+pub fn reach(way: &Way, lexicon: &Lexicon) -> Result<Remote, ReachError> {
+    // Opened once here for an error with a remedy; later failures only mean to try again.
+    let mut first = Some(carrier(way)?);
+    let again = way.clone();
+    let opener: Opener = Box::new(move || match first.take() {
+        Some(carrier) => Ok(carrier),
+        None => carrier(&again).map_err(io::Error::other),
+    });
+    let broken = |cause| ReachError::Broken {
+        way: way.clone(),
+        cause,
+    };
+    let mut remote = Remote::open(opener, lexicon).map_err(broken)?;
+    match remote.wait(PATIENCE) {
+        Ok(()) => Ok(remote),
+        Err(_) => Err(ReachError::Silent(way.clone())),
+    }
+}
+
+/// Opens the link to a robot.
+fn carrier(way: &Way) -> Result<Box<dyn Carrier>, WireError> {
+    let on_bus = |bus| Box::new(OnBus::new(bus, Sender::Host)) as Box<dyn Carrier>;
+    match way {
+        Way::Can(interface) => link::open_interface(interface).map(on_bus),
+        Way::Slcan(line) => link::open_adapter(line).map(on_bus),
+        Way::Line(line) => Ok(Box::new(OnWire::new(link::open_line(line)?))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        for written in [
+            "can:vcan0",
+            "slcan:serial:/dev/ttyS0@115200",
+            "slcan:tcp:127.0.0.1:7700",
+            "serial:/dev/ttyACM0@921600",
+            "tcp:127.0.0.1:7700",
+        ] {
+            assert_eq!(written.parse::<Way>().unwrap().to_string(), written);
+        }
+        for written in ["", "can:", "sim", "slcan:", "tcp:x", "qemu"] {
+            assert!(written.parse::<Way>().is_err(), "{written}");
+        }
+    }
+}
