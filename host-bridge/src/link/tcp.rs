@@ -9,6 +9,9 @@ use super::{Wire, WireError};
 /// How long a host may take to answer.
 const PATIENCE: Duration = Duration::from_secs(3);
 
+/// What is not worth waiting for.
+const SHORTEST: Duration = Duration::from_millis(1);
+
 /// An open stream.
 pub struct Stream(TcpStream);
 
@@ -48,10 +51,17 @@ impl Wire for Stream {
     }
 
     fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
-        // A timeout of 0 would mean none.
-        self.0
-            .set_read_timeout(Some(patience.max(Duration::from_millis(1))))?;
-        match self.0.read(buffer) {
+        // The system rounds timeouts up to whole ticks of 4 ms or more, and takes 0 for none at all.
+        let at_once = patience < SHORTEST;
+        self.0.set_nonblocking(at_once)?;
+        if !at_once {
+            self.0.set_read_timeout(Some(patience))?;
+        }
+        let read = self.0.read(buffer);
+        if at_once {
+            self.0.set_nonblocking(false)?;
+        }
+        match read {
             Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
             Err(e) if matches!(e.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => Ok(0),
             other => other,

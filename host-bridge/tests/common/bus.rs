@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use deictic_core::can::Frame;
 
-use super::Bus;
+use deictic::link::bus::Bus;
 
 #[derive(Default)]
 struct Wires {

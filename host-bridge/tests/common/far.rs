@@ -49,7 +49,8 @@ impl Robot for Counted {
     }
 
     fn stop(&mut self, now: Micros) {
-        self.hangs = false;
+        // Hosts stop whatever it may be doing when they come.
+        self.hangs &= self.begun.lock().unwrap().is_empty();
         self.inner.stop(now);
     }
 

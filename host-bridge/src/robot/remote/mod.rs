@@ -309,6 +309,10 @@ impl Remote {
 
     /// A stop that is a command of its own: it is done when what was being done has ended.
     fn stand_still(&mut self, now: Micros, id: CommandId) -> Taken {
+        if self.given.is_none() {
+            // A person who says "stop" to an arm that stands still has seen to it.
+            self.say(&ClearFault { id: self.id() }.into());
+        }
         self.stop(now);
         self.last = Some(id);
         self.stops = Some(id);
