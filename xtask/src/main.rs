@@ -9,6 +9,7 @@
 //! | `budget` | measures the image against its golden figures |
 //! | `test` | formatting, lints, all tests, both images, budgets |
 //! | `fci` | plays the session on an arm that speaks its own network interface (franka-sim) |
+//! | `can` | tries the robot's links on a real CAN bus, if need be in a Linux of its own |
 //! | `fuzz` | fuzzes every door of core and bridge |
 //! | `faults` | plays sessions under faults of every kind |
 
@@ -39,6 +40,7 @@ enum Command {
     Budget(cmd::budget::Budget),
     Test(cmd::test::Test),
     Fci(cmd::fci::Fci),
+    Can(cmd::can::Can),
     Fuzz(cmd::fuzz::Fuzz),
     Faults(cmd::faults::Faults),
 }
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Command::Budget(budget) => budget.run(),
         Command::Test(test) => test.run(),
         Command::Fci(fci) => fci.run(),
+        Command::Can(can) => can.run(),
         Command::Fuzz(fuzz) => fuzz.run(),
         Command::Faults(faults) => faults.run(),
     };

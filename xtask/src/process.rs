@@ -18,6 +18,11 @@ pub fn root() -> PathBuf {
         .unwrap_or(crate_root)
 }
 
+/// Where build products go.
+pub fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
 /// The cargo that runs this program, else the one on PATH.
 pub fn cargo() -> Command {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());

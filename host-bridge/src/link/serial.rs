@@ -45,9 +45,9 @@ impl Pair {
     /// # Errors
     /// When the system has none.
     pub fn open() -> io::Result<Self> {
-        let (ours, theirs) = TTYPort::pair()?;
+        let (ours, mut theirs) = TTYPort::pair()?;
+        theirs.set_exclusive(false)?;
         let path = theirs.name().unwrap_or_default();
-        // The port itself is locked, so that nobody else could open it.
         let held = File::options()
             .read(true)
             .write(true)

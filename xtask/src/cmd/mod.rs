@@ -1,6 +1,7 @@
 //! One file per command; its doc comment is its manual.
 
 pub mod budget;
+pub mod can;
 pub mod demo;
 pub mod faults;
 pub mod fci;

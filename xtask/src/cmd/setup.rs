@@ -1,10 +1,11 @@
 use anyhow::{Context, Result};
 use clap::Args;
 
+use crate::cmd::can;
 use crate::process::{find, output};
 use crate::toolchain::{Toolchain, apt_install};
 
-/// Get what is missing: the target or a compiler that can build it, QEMU.
+/// Get what is missing: the target or a compiler that can build it, QEMU, a Linux with CAN, Python's venv.
 ///
 /// Changes nothing when nothing is missing. Installs Debian packages as root or through sudo and says which. The other
 /// commands call it themselves.
@@ -17,6 +18,7 @@ impl Setup {
         println!("compiler: {toolchain}");
         let qemu = output(std::process::Command::new(QEMU).arg("--version")).unwrap_or_default();
         println!("emulator: {}", qemu.lines().next().unwrap_or("unknown"));
+        for_tests();
         match find("defmt-print") {
             Some(path) => println!("board log: decoded by {}", path.display()),
             None => println!(
@@ -67,4 +69,23 @@ pub fn ensure_speech() -> Result<()> {
         return Ok(());
     }
     apt_install(&packages)
+}
+
+/// What only `test` and `can` need. What cannot be had is told there too, when its tests are skipped.
+pub fn for_tests() {
+    let packages = can::PACKAGES.map(str::to_owned);
+    if !can::is_possible()
+        && let Err(error) = apt_install(&packages)
+    {
+        eprintln!("setup: no CAN bus for the tests: {error:#}");
+    }
+    if !has_venv()
+        && let Err(error) = apt_install(&["python3-venv".to_owned()])
+    {
+        eprintln!("setup: no Python for the tests: {error:#}");
+    }
+}
+
+fn has_venv() -> bool {
+    output(std::process::Command::new("python3").args(["-c", "import venv, ensurepip"])).is_some()
 }

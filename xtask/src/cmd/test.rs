@@ -1,10 +1,11 @@
+use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::board::{self, Board};
-use crate::cmd::{budget::Budget, setup};
+use crate::cmd::{budget::Budget, can, can::Can, setup};
 use crate::process::{self, cargo};
 use crate::qemu::{self, Link};
 use crate::toolchain::Toolchain;
@@ -19,6 +20,7 @@ impl Test {
         if let Err(why) = setup::ensure_speech() {
             eprintln!("tests of speech will be skipped: {why:#}");
         }
+        setup::for_tests();
         for (title, mut command) in lints(&toolchain) {
             step(&title);
             process::run(&mut command)?;
@@ -31,12 +33,26 @@ impl Test {
             eprintln!("{}", image.display());
             tests.env(board.image_variable(), image);
         }
+        match python() {
+            Ok(python) => {
+                tests.env("DEICTIC_PYTHON", python);
+            }
+            Err(error) => {
+                eprintln!("no python-can and cantools, so their test is skipped: {error:#}")
+            }
+        }
         step("tests");
         process::run(&mut tests)?;
         step("the board decides bit for bit as the host");
         trial(&toolchain, "bits", true)?;
         step("a stack that grows too far stops the board");
         trial(&toolchain, "faults", false)?;
+        step("the robot's links on a CAN bus");
+        if can::is_possible() {
+            Can { commands: 500 }.run()?;
+        } else {
+            eprintln!("skipped: {}", can::MISSING);
+        }
         step("budgets");
         Budget::check(&toolchain)
     }
@@ -59,6 +75,24 @@ fn trial(toolchain: &Toolchain, name: &str, ends_well: bool) -> Result<()> {
     );
     Ok(())
 }
+
+/// A Python with python-can and cantools, made beside the other build products.
+fn python() -> Result<PathBuf> {
+    let place = process::target().join("robot-tools");
+    let python = place.join("bin/python");
+    let ready = place.join("ready");
+    if !ready.is_file() {
+        process::run(Command::new("python3").args(["-m", "venv"]).arg(&place))
+            .context("Python's venv is needed: `apt-get install python3-venv`")?;
+        let mut pip = Command::new(place.join("bin/pip"));
+        process::run(pip.args(["install", "--quiet"]).args(PYTHON_PACKAGES))?;
+        std::fs::write(&ready, "")?;
+    }
+    Ok(python)
+}
+
+/// The releases that this was tested with; pyserial is what python-can reaches adapters through.
+const PYTHON_PACKAGES: [&str; 3] = ["python-can==4.5.0", "cantools==40.2.1", "pyserial==3.5"];
 
 fn step(title: &str) {
     eprintln!("\n== {title}");

@@ -12,8 +12,9 @@ use socketcan::{
 use super::{Bus, BusFault};
 
 /// For how long a full queue may refuse a frame: at 125 kbit/s the ten frames that an interface
-/// queues by default take 10 ms.
-const FULL: Duration = Duration::from_millis(50);
+/// queues by default take 10 ms, through an adapter at 115,200 baud 20 ms and its waits; the robot's
+/// patience with its host is longer.
+const FULL: Duration = Duration::from_millis(250);
 
 /// How long to wait before a full queue is tried again: a frame at 1 Mbit/s takes 0.13 ms.
 const AGAIN: Duration = Duration::from_micros(200);

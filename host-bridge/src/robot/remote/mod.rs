@@ -64,6 +64,8 @@ struct Given {
 pub struct Remote {
     open: Opener,
     carrier: Option<Box<dyn Carrier>>,
+    /// Why it was lost last.
+    gone: String,
     lexicon: Lexicon,
     run: u32,
     newest: Number,
@@ -94,6 +96,7 @@ impl Remote {
         let mut remote = Self {
             open,
             carrier,
+            gone: String::new(),
             lexicon: lexicon.clone(),
             run: fresh_run(),
             newest: Number::default(),
@@ -167,10 +170,15 @@ impl Remote {
 
     fn send(&mut self, packet: &Packet) {
         if let Some(carrier) = &mut self.carrier
-            && carrier.send(packet).is_err()
+            && let Err(error) = carrier.send(packet)
         {
-            self.carrier = None;
+            self.lose(&error);
         }
+    }
+
+    fn lose(&mut self, error: &io::Error) {
+        self.carrier = None;
+        self.gone = error.to_string();
     }
 
     /// Takes what has arrived, waiting for the first of it.
@@ -185,7 +193,7 @@ impl Remote {
                     }
                 }
                 Ok(None) => return,
-                Err(_) => self.carrier = None,
+                Err(error) => self.lose(&error),
             }
             patience = Duration::ZERO;
         }
@@ -212,6 +220,8 @@ impl Remote {
     /// Gives a command, and waits a little for the answer.
     fn give(&mut self, now: Micros, id: CommandId, message: &ToRobot) -> Result<Taken, Refusal> {
         let packet = message.packet();
+        // A line that delivers in bursts may hold the last beat's successor back behind the command.
+        self.say(&HostBeat { id: self.id() }.into());
         self.send(&packet);
         self.given = Some(Given {
             id,
@@ -270,7 +280,8 @@ impl Remote {
     /// What is due: a link to be opened anew, a command to be given again, a robot that is lost.
     fn see_to(&mut self, now: Micros) {
         if self.carrier.is_none() {
-            self.fail(Fault::RobotLost, "the link to the robot is gone");
+            let why = format!("the link to the robot is gone: {}", self.gone);
+            self.fail(Fault::RobotLost, &why);
             if now >= self.reopen {
                 self.reopen = now.after(REOPEN);
                 self.carrier = (self.open)().ok();
