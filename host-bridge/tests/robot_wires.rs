@@ -1,8 +1,8 @@
 //! The simulated robot behind every link that it can be reached over: twenty commands that depend on
 //! each other end alike on all of them, and a command is accepted soon.
 //!
-//! `DEICTIC_CAN` names a CAN interface of this machine, such as vcan0; without it that link is left
-//! out. `cargo xtask can` makes one, if need be in a Linux of its own.
+//! `DEICTIC_CAN` names a CAN interface of this machine, such as vcan0; with it that link alone is tried,
+//! without it all others. `cargo xtask can` makes one, if need be in a Linux of its own.
 
 #[path = "common/bus.rs"]
 mod bus;
@@ -41,20 +41,19 @@ fn interface() -> Option<String> {
     named
 }
 
-/// Where the simulated robot is to listen, once for every link there is here.
+/// Where the simulated robot is to listen.
 fn places() -> Vec<String> {
+    // A guest that has CAN has one processor: the links that are everywhere are tried outside.
+    if let Some(name) = interface() {
+        return vec![format!("can:{name}")];
+    }
     let everywhere = [
         "tcp:127.0.0.1:0",
         "serial:pty",
         "slcan:pty",
         "slcan:tcp:127.0.0.1:0",
     ];
-    let can = interface().map(|name| format!("can:{name}"));
-    everywhere
-        .map(str::to_owned)
-        .into_iter()
-        .chain(can)
-        .collect()
+    everywhere.map(str::to_owned).to_vec()
 }
 
 /// A robot in a process of its own.
