@@ -3,6 +3,7 @@
 //! The same functions are driven by libFuzzer (`cargo xtask fuzz`, tests/fuzz) and replayed over the committed corpora
 //! by an ordinary test (`cargo test -p deictic-tests --test corpus`).
 
+pub mod command;
 pub mod decision;
 pub mod files;
 pub mod frames;
@@ -29,6 +30,7 @@ const fn target(name: &'static str, bytes: usize, run: fn(&[u8])) -> Target {
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
+    target("command", 256, command::run),
     target("decision", 320, decision::run),
     target("files", 4096, files::run),
     target("frames", 128, frames::run),

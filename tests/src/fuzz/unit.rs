@@ -1,9 +1,14 @@
 //! The whole unit under a mock clock: a host that says sensible and senseless things in any order, damage on the line
-//! in between, time that passes in any steps. What it says is always in order, and it never tells anybody to move
+//! in between, a hand sensor that sees anything, time that passes in any steps. What it says is always in order, and it never tells anybody to move
 //! unless everything that a decision needs is there.
 
 use deictic_core::board::{Link, Scene, ToHost, ToUnit, Unit, Vocabulary};
 use deictic_core::decide::Outcome;
+use deictic_core::gesture::frame::{FINGERS, Finger, HandFrame};
+use deictic_core::gesture::line::send;
+use deictic_core::gesture::mapping::Gesture;
+use deictic_core::gesture::wire::Sample;
+use deictic_core::protocol::hand::{HandSettings, Meaning};
 use deictic_core::protocol::message::{
     ACTIONS_PART, Configuration, ENTITIES_PART, Heartbeat, Hello, Loaded, RobotState, RobotStatus,
     ScenePart, SentencePart, VocabularyPart, WORDS_PART,
@@ -77,7 +82,7 @@ impl Host {
     }
 
     fn step(&mut self, source: &mut Source<'_>) {
-        match source.small(20) {
+        match source.small(28) {
             0 => self.pass(Micros(u64::from(source.word()))),
             1 | 2 => self.pass(Micros(u64::from(source.byte()) * 10_000)),
             3 => self.poll(),
@@ -124,6 +129,37 @@ impl Host {
                 vocabulary: 0,
                 scene: 0,
             })),
+            20 => {
+                let n = source.small(100);
+                let bytes = source.bytes(usize::from(n));
+                self.unit.sense(self.now, bytes);
+            }
+            21..=24 => self.show(source),
+            25 => {
+                let sound = source.flag();
+                let mut float = |usual: f32| if sound { usual } else { source.float() };
+                let mut settings = HandSettings::DEFAULT;
+                settings.mount.origin = [float(0.5), float(0.0), float(0.3)];
+                settings.aim.sigma = float(0.05);
+                settings.aim.nothing = float(0.1);
+                self.say(&ToUnit::Hand(settings));
+            }
+            26 => {
+                let actions = self.vocabulary.actions().len() as u8;
+                let meanings = (0..source.small(6)).map(|_| {
+                    let number = source.small(12);
+                    Meaning {
+                        gesture: match source.flag() {
+                            true => Gesture::Shape(number),
+                            false => Gesture::Stroke(number),
+                        },
+                        action: source.small(actions.saturating_add(1)),
+                    }
+                });
+                let meanings = meanings.collect();
+                self.say(&ToUnit::Meanings(meanings));
+            }
+            27 => self.say(&ToUnit::AskHand),
             _ => {
                 let version = u16::from(source.byte());
                 let schema = source.word();
@@ -225,6 +261,23 @@ impl Host {
         }
     }
 
+    /// The sensor's line sees a hand for some frames, or nothing.
+    fn show(&mut self, source: &mut Source<'_>) {
+        let mut out = Outbox::<128>::new();
+        for _ in 0..1 + source.small(12) {
+            self.now = self.now.after(Micros(9_000));
+            let time = self.now.0 as u32;
+            let sample = match source.byte() {
+                0..=200 => Sample::Hand(hand(source, time)),
+                _ => Sample::Nothing(time),
+            };
+            if send(&sample, &mut out).is_ok() {
+                self.unit.sense(self.now, out.waiting());
+                out.clear();
+            }
+        }
+    }
+
     /// Changes one byte of what is on the line, leaves one out or doubles it.
     fn damage(&mut self, source: &mut Source<'_>) {
         if self.line.is_empty() {
@@ -318,5 +371,39 @@ fn hello(version: u16, schema: u32) -> Hello {
         schema,
         boot: 1,
         capacities: Unit::capacities(),
+    }
+}
+
+/// A hand with its fingers straight or folded, somewhere above the sensor.
+fn hand(source: &mut Source<'_>, time: u32) -> HandFrame {
+    let mut place = |reach: f32| (f32::from(source.byte()) - 128.0) / 128.0 * reach;
+    let palm = [place(200.0), 200.0 + place(100.0), place(200.0)];
+    let velocity = [place(500.0), place(500.0), place(500.0)];
+    let odd = source.byte();
+    let mut fingers = [None; FINGERS];
+    for (i, finger) in (0_u8..).zip(&mut fingers) {
+        let straight = source.flag();
+        let [x, y, z] = palm;
+        let side = (f32::from(i) - 2.0) * 20.0;
+        let point = |along: f32, down: f32| [x + side, y - down, z - along];
+        *finger = (odd != i).then(|| Finger {
+            knuckle: point(40.0, 0.0),
+            middle: point(80.0, 0.0),
+            tip: if straight {
+                point(130.0, 0.0)
+            } else {
+                point(50.0, 30.0)
+            },
+        });
+    }
+    HandFrame {
+        time,
+        confidence: 1.0,
+        palm,
+        velocity,
+        normal: [0.0, -1.0, 0.0],
+        direction: [0.0, 0.0, -1.0],
+        fingers,
+        ..HandFrame::default()
     }
 }
