@@ -20,6 +20,7 @@ use deictic_core::profile::{Profile, ProfileError, Threshold};
 use deictic_core::protocol::hand::*;
 use deictic_core::protocol::link::{Counters, Link, Opening};
 use deictic_core::protocol::message::*;
+use deictic_core::protocol::seal::TAG;
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
 use deictic_core::scene::SceneError;
@@ -160,6 +161,13 @@ fn hand_to_unit() -> Vec<(&'static str, ToUnit)> {
         ("hand", ToUnit::Hand(HandSettings::DEFAULT)),
         ("templates", ToUnit::Templates(templates)),
         ("ask-hand", ToUnit::AskHand),
+        (
+            "prove",
+            ToUnit::Prove(Proof {
+                nonce: 0x0102_0304_0506_0708,
+                proof: [9, 8, 7, 6, 5, 4, 3, 2],
+            }),
+        ),
     ]
 }
 
@@ -206,6 +214,8 @@ fn hand_to_host() -> Vec<(&'static str, ToHost)> {
         ("shown", ToHost::Shown(shown)),
         ("hand-view", ToHost::Hand(view)),
         ("hand-statistics", ToHost::HandStatistics(statistics)),
+        ("challenge", ToHost::Challenge(0x0102_0304_0506_0708)),
+        ("proven", ToHost::Proven),
     ]
 }
 
@@ -222,6 +232,7 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
         reordered: 8,
         missed: 9,
         unsent: 10,
+        unauthentic: 11,
     };
     let three = |a: f32| [a, 0.5, 1.0].into_iter().collect();
     let question = Question {
@@ -317,6 +328,7 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
         ),
         ("fault-no-question", Fault::NoQuestion { decision: 6 }),
         ("fault-host-lost", Fault::HostLost),
+        ("fault-not-proven", Fault::NotProven),
         (
             "fault-meaning",
             Fault::Hand(HandFault::Meaning(MappingError::Reserved(Gesture::Shape(
@@ -357,10 +369,12 @@ const HEARTBEAT: Heartbeat = Heartbeat {
     scene: 3,
 };
 
-fn frame(message: &impl Serialize) -> Vec<u8> {
+fn frame(message: &(impl Serialize + Opening)) -> Vec<u8> {
     let mut link = Link::<256>::new();
     let mut out = Outbox::<300>::new();
     assert!(link.send(message, &mut out), "a message does not fit");
+    // A seal takes room for its tag in the receiver's buffer; stuffing adds two bytes and one for every 254.
+    assert!(out.waiting().len() <= 256 - TAG, "no room for a tag");
     out.waiting().to_vec()
 }
 

@@ -16,10 +16,12 @@
 extern crate std;
 
 mod board;
+mod key;
 pub mod paj7620;
 mod turn;
 
 pub use board::Board;
+pub use key::lock;
 pub use turn::{Turn, run, turn};
 
 #[cfg(all(feature = "mps2-an386", feature = "nucleo-g474re"))]

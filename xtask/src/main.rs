@@ -11,6 +11,7 @@
 //! | `fci` | plays the session on an arm that speaks its own network interface (franka-sim) |
 //! | `can` | tries the robot's links on a real CAN bus, if need be in a Linux of its own |
 //! | `fuzz` | fuzzes every door of core and bridge |
+//! | `key` | makes a key for one board |
 //! | `faults` | plays sessions under faults of every kind |
 
 mod board;
@@ -43,6 +44,7 @@ enum Command {
     Can(cmd::can::Can),
     Fuzz(cmd::fuzz::Fuzz),
     Faults(cmd::faults::Faults),
+    Key(cmd::key::MakeKey),
 }
 
 fn main() -> ExitCode {
@@ -57,6 +59,7 @@ fn main() -> ExitCode {
         Command::Can(can) => can.run(),
         Command::Fuzz(fuzz) => fuzz.run(),
         Command::Faults(faults) => faults.run(),
+        Command::Key(key) => key.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

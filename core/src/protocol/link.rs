@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
+use super::seal::{Key, Nonces, Seal, TAG, Way};
 use super::stuffing::{FrameError, FrameReader, FrameWriter, Outbox};
 
 /// What has become of frames since the start. Every counter stops at its largest value.
@@ -28,6 +29,8 @@ pub struct Counters {
     pub missed: u32,
     /// Frames of our own for which there was no room.
     pub unsent: u32,
+    /// Dropped: not by somebody who has the key, or not of this conversation.
+    pub unauthentic: u32,
 }
 
 impl Counters {
@@ -43,6 +46,7 @@ impl Counters {
         reordered: 0,
         missed: 0,
         unsent: 0,
+        unauthentic: 0,
     };
 
     /// How many received frames were dropped, whatever the reason.
@@ -55,6 +59,7 @@ impl Counters {
             self.undecodable,
             self.duplicated,
             self.reordered,
+            self.unauthentic,
         ]
         .iter()
         .fold(0, |sum, n| sum.saturating_add(*n))
@@ -65,6 +70,11 @@ impl Counters {
 pub trait Opening {
     /// Whether sequence numbers start anew with this message.
     fn opens(&self) -> bool;
+
+    /// Whether it belongs to the exchange by which both ends show that they have the key, and so is itself not sealed.
+    fn proves(&self) -> bool {
+        false
+    }
 }
 
 /// A message that arrived.
@@ -80,9 +90,22 @@ pub struct Received<M> {
 #[derive(Debug)]
 pub struct Link<const FRAME: usize> {
     reader: FrameReader<FRAME>,
-    expected: u16,
-    next: u16,
+    /// Counted on beyond the 16 bits that a frame carries, for the seal.
+    expected: u64,
+    next: u64,
     counters: Counters,
+    lock: Lock,
+}
+
+/// What a link asks of frames.
+#[derive(Debug)]
+enum Lock {
+    /// Nothing: there is no key.
+    None,
+    /// Nobody has shown to have the key yet.
+    Shut(Key, Way),
+    /// Both have, and every frame is sealed.
+    Sealed(Seal),
 }
 
 impl<const FRAME: usize> Default for Link<FRAME> {
@@ -100,7 +123,48 @@ impl<const FRAME: usize> Link<FRAME> {
             expected: 0,
             next: 0,
             counters: Counters::ZERO,
+            lock: Lock::None,
         }
+    }
+
+    /// From now on nothing is taken but what opens a conversation or proves to have the key; this end's own frames go
+    /// `way`.
+    pub fn lock(&mut self, key: Key, way: Way) {
+        self.lock = Lock::Shut(key, way);
+    }
+
+    /// The key, where there is one.
+    #[must_use]
+    pub fn key(&mut self) -> Option<&mut Key> {
+        match &mut self.lock {
+            Lock::None => None,
+            Lock::Shut(key, _) => Some(key),
+            Lock::Sealed(seal) => Some(seal.key()),
+        }
+    }
+
+    /// Whether there is a key that the other end has not shown to have.
+    #[must_use]
+    pub fn is_shut(&self) -> bool {
+        matches!(self.lock, Lock::Shut(..))
+    }
+
+    /// Ends the conversation with these seals; both ends are to prove anew.
+    pub fn shut(&mut self) {
+        if let Lock::Sealed(seal) = &mut self.lock {
+            let way = seal.way();
+            self.lock = Lock::Shut(seal.key().clone(), way);
+        }
+    }
+
+    /// Both have shown to have the key: every frame is sealed from now on.
+    pub fn seal(&mut self, nonces: Nonces) {
+        let (key, way) = match &mut self.lock {
+            Lock::None => return,
+            Lock::Shut(key, way) => (key.clone(), *way),
+            Lock::Sealed(seal) => (seal.key().clone(), seal.way()),
+        };
+        self.lock = Lock::Sealed(Seal::new(key, nonces, way));
     }
 
     /// What has become of frames so far.
@@ -125,15 +189,34 @@ impl<const FRAME: usize> Link<FRAME> {
                 return None;
             }
         };
-        let Ok(((sequence, message), [])) = postcard::take_from_bytes::<(u16, M)>(contents) else {
-            count(&mut counters.undecodable);
-            return None;
+        let (body, sealed) = match &mut self.lock {
+            Lock::Sealed(seal) => opened(seal, self.expected, contents),
+            Lock::None | Lock::Shut(..) => (contents, false),
+        };
+        let decoded = postcard::take_from_bytes::<(u16, M)>(body);
+        let may_be_plain = |message: &M| match self.lock {
+            Lock::None => true,
+            Lock::Shut(..) => message.opens() || message.proves(),
+            Lock::Sealed(_) => message.opens(),
+        };
+        let (sequence, message) = match decoded {
+            Ok((whole, [])) if sealed || may_be_plain(&whole.1) => whole,
+            _ => {
+                let locked = !matches!(self.lock, Lock::None) && !sealed;
+                count(if locked {
+                    &mut counters.unauthentic
+                } else {
+                    &mut counters.undecodable
+                });
+                return None;
+            }
         };
         let missed = if message.opens() {
+            self.expected = u64::from(sequence);
             0
         } else {
             // The half of all numbers ahead of the expected one is new, the other half is old.
-            let ahead = sequence.wrapping_sub(self.expected);
+            let ahead = sequence.wrapping_sub(self.expected as u16);
             if ahead == u16::MAX {
                 count(&mut counters.duplicated);
                 return None;
@@ -144,20 +227,30 @@ impl<const FRAME: usize> Link<FRAME> {
             }
             ahead
         };
-        self.expected = sequence.wrapping_add(1);
+        let passed = u64::from(missed).saturating_add(1);
+        self.expected = self.expected.wrapping_add(passed);
         counters.missed = counters.missed.saturating_add(u32::from(missed));
         count(&mut counters.received);
         Some(Received { message, missed })
     }
 
     /// Puts a message into the outbox, or counts that there was no room for it and gives `false`.
-    pub fn send<M: Serialize, const OUT: usize>(
+    pub fn send<M: Serialize + Opening, const OUT: usize>(
         &mut self,
         message: &M,
         out: &mut Outbox<OUT>,
     ) -> bool {
-        let framed = FrameWriter::new(out)
-            .and_then(|writer| postcard::serialize_with_flavor(&(self.next, message), writer));
+        if message.opens() {
+            // The other end counts from the 16 bits that it hears.
+            self.next &= u64::from(u16::MAX);
+        }
+        let tagger = match &mut self.lock {
+            Lock::Sealed(seal) if !message.opens() => Some(seal.tagger(self.next)),
+            _ => None,
+        };
+        let framed = FrameWriter::sealed(out, tagger).and_then(|writer| {
+            postcard::serialize_with_flavor(&(self.next as u16, message), writer)
+        });
         if framed.is_err() {
             count(&mut self.counters.unsent);
             return false;
@@ -165,6 +258,25 @@ impl<const FRAME: usize> Link<FRAME> {
         self.next = self.next.wrapping_add(1);
         count(&mut self.counters.sent);
         true
+    }
+}
+
+/// The body of a sealed frame, and that it is one; or all of the contents when its tag is not that of its number.
+#[inline(never)]
+fn opened<'a>(seal: &mut Seal, expected: u64, contents: &'a [u8]) -> (&'a [u8], bool) {
+    let Some((body, tag)) = contents.split_last_chunk::<TAG>() else {
+        return (contents, false);
+    };
+    let Ok((sequence, _)) = postcard::take_from_bytes::<u16>(body) else {
+        return (contents, false);
+    };
+    // The number that is nearest to the expected one, as a duplicate is behind it.
+    let ahead = sequence.wrapping_sub(expected as u16) as i16;
+    let counter = expected.wrapping_add_signed(i64::from(ahead));
+    if seal.is_sound(counter, body, tag) {
+        (body, true)
+    } else {
+        (contents, false)
     }
 }
 
@@ -185,6 +297,16 @@ mod tests {
     impl Opening for Note {
         fn opens(&self) -> bool {
             *self == Self::Open
+        }
+    }
+
+    /// Something that is not a note.
+    #[derive(Serialize)]
+    struct Other<T>(T);
+
+    impl<T> Opening for Other<T> {
+        fn opens(&self) -> bool {
+            false
         }
     }
 
@@ -242,8 +364,8 @@ mod tests {
     #[test]
     fn numbers_wrap() {
         let (mut a, mut b) = (Link::new(), Link::new());
-        a.next = u16::MAX;
-        b.expected = u16::MAX;
+        a.next = u64::from(u16::MAX);
+        b.expected = u64::from(u16::MAX);
         for i in 0..3 {
             let f = frame(&mut a, &Note::Text(i));
             assert_eq!(take(&mut b, &f).unwrap().missed, 0);
@@ -254,12 +376,12 @@ mod tests {
     fn sound_frames_with_other_contents_are_counted() {
         let (mut a, mut b) = (Link::<64>::new(), Link::<64>::new());
         let mut out = Outbox::<64>::new();
-        a.send(&(7_u8, 8_u64), &mut out);
+        a.send(&Other((7_u8, 8_u64)), &mut out);
         let bytes = out.waiting().to_vec();
         assert_eq!(take(&mut b, &bytes), None);
         // The same message with something behind it is not that message.
         let mut out = Outbox::<64>::new();
-        a.send(&(Note::Text(1), 5_u8), &mut out);
+        a.send(&Other((Note::Text(1), 5_u8)), &mut out);
         let bytes = out.waiting().to_vec();
         assert_eq!(take(&mut b, &bytes), None);
         assert_eq!(b.counters().undecodable, 2);
@@ -270,7 +392,7 @@ mod tests {
         let mut a = Link::<64>::new();
         let mut out = Outbox::<8>::new();
         assert!(!a.send(&Note::Text(1), &mut out) || out.waiting().len() <= 8);
-        assert!(!a.send(&[1_u64; 8], &mut out));
+        assert!(!a.send(&Other([1_u64; 8]), &mut out));
         assert!(a.counters().unsent >= 1);
     }
 }

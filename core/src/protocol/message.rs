@@ -8,6 +8,7 @@ use super::hand::{
     HandFault, HandSettings, HandStatistics, HandView, Meanings, SampleBytes, TemplatesPart,
 };
 use super::link::{Counters, Opening};
+use super::seal::TAG;
 use crate::category::Category;
 use crate::decide::Decision;
 use crate::profile::{Profile, ProfileError};
@@ -53,11 +54,17 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     Templates(TemplatesPart),
     /// Tell what you see of a hand.
     AskHand,
+    /// Shows that the host has the key.
+    Prove(Proof),
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
     fn opens(&self) -> bool {
         matches!(self, Self::Hello(_))
+    }
+
+    fn proves(&self) -> bool {
+        matches!(self, Self::Prove(_))
     }
 }
 
@@ -92,12 +99,29 @@ pub enum ToHost<const N: usize, const C: usize> {
     Hand(HandView),
     /// Asked for: what has become of samples.
     HandStatistics(HandStatistics),
+    /// Follows a Hello of a unit that has a key: what this unit has never said before, to be answered with a proof.
+    Challenge(u64),
+    /// The proof was right; this and all that follows is sealed.
+    Proven,
 }
 
 impl<const N: usize, const C: usize> Opening for ToHost<N, C> {
     fn opens(&self) -> bool {
         matches!(self, Self::Hello(_))
     }
+
+    fn proves(&self) -> bool {
+        matches!(self, Self::Challenge(_))
+    }
+}
+
+/// What a host shows to have the key with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Proof {
+    /// What this host has never said before.
+    pub nonce: u64,
+    /// What only the key makes of it and of the unit's challenge ([`super::seal::Key::proof`]).
+    pub proof: [u8; TAG],
 }
 
 /// Who speaks, and in which version.
@@ -354,6 +378,8 @@ pub enum Fault {
     HostLost,
     /// Something about hands.
     Hand(HandFault),
+    /// What was to show that the host has the key does not; or the unit has no key.
+    NotProven,
 }
 
 /// What a unit has counted since it started.

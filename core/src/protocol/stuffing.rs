@@ -5,6 +5,8 @@ use crc::{CRC_32_ISO_HDLC, Crc, Digest, Table};
 use heapless::Vec;
 use postcard::ser_flavors::Flavor;
 
+use super::seal::Key;
+
 static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// Length of the CRC at a frame's end.
@@ -81,6 +83,7 @@ pub struct FrameWriter<'a, const OUT: usize> {
     code_at: usize,
     code: u8,
     crc: Digest<'static, u32, Table<1>>,
+    tagger: Option<&'a mut Key>,
 }
 
 impl<'a, const OUT: usize> FrameWriter<'a, OUT> {
@@ -89,6 +92,14 @@ impl<'a, const OUT: usize> FrameWriter<'a, OUT> {
     /// # Errors
     /// When the outbox is full.
     pub fn new(out: &'a mut Outbox<OUT>) -> postcard::Result<Self> {
+        Self::sealed(out, None)
+    }
+
+    /// Starts a frame that ends with a tag over its contents.
+    ///
+    /// # Errors
+    /// When the outbox is full.
+    pub fn sealed(out: &'a mut Outbox<OUT>, tagger: Option<&'a mut Key>) -> postcard::Result<Self> {
         out.compact();
         let start = out.bytes.len();
         let mut writer = Self {
@@ -97,6 +108,7 @@ impl<'a, const OUT: usize> FrameWriter<'a, OUT> {
             code_at: start,
             code: 1,
             crc: CRC.digest(),
+            tagger,
         };
         writer.open_block()?;
         Ok(writer)
@@ -145,11 +157,20 @@ impl<const OUT: usize> Flavor for FrameWriter<'_, OUT> {
     type Output = ();
 
     fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        if let Some(tagger) = &mut self.tagger {
+            tagger.push(byte);
+        }
         self.crc.update(&[byte]);
         self.stuff(byte).inspect_err(|_| self.abandon())
     }
 
     fn finalize(mut self) -> postcard::Result<()> {
+        let tag = self.tagger.take().map(|tagger| tagger.finish());
+        if let Some(tag) = tag {
+            for byte in tag {
+                self.try_push(byte)?;
+            }
+        }
         let crc = self.crc.clone().finalize().to_le_bytes();
         let mut end = || {
             for byte in crc {

@@ -11,6 +11,7 @@ pub mod hand;
 pub mod loading;
 pub mod pairing;
 pub mod taught;
+mod trust;
 mod view;
 
 pub use crate::protocol::message::Statistics;
@@ -59,6 +60,8 @@ pub struct Unit<
     configuration: Configuration,
     /// Whether the robot is carrying out a command.
     moving: bool,
+    /// How many conversations were opened: with `boot`, what makes a challenge new.
+    greetings: u32,
     statistics: Statistics,
 }
 
@@ -88,6 +91,7 @@ impl<
             trace: Trace::new(),
             configuration: Configuration::DEFAULT,
             moving: false,
+            greetings: 0,
             statistics: Statistics {
                 link: Counters::ZERO,
                 executes: 0,
@@ -115,6 +119,7 @@ impl<
         self.trace.clear();
         self.configuration = Configuration::DEFAULT;
         self.moving = false;
+        self.greetings = 0;
         self.statistics = Statistics::default();
     }
 
@@ -223,6 +228,10 @@ impl<
             self.greet(now, host);
             return;
         }
+        if let ToUnit::Prove(proof) = message {
+            self.take_proof(now, proof);
+            return;
+        }
         if !self.open {
             // Only a Hello is sure to be taken by a host that goes by an earlier start's numbers.
             self.introduce();
@@ -230,7 +239,7 @@ impl<
             return;
         }
         let result = match message {
-            ToUnit::Hello(_) | ToUnit::Heartbeat(_) => Ok(()),
+            ToUnit::Hello(_) | ToUnit::Heartbeat(_) | ToUnit::Prove(_) => Ok(()),
             ToUnit::Vocabulary(part) => self.loading.take_vocabulary(part).map(|done| {
                 self.pairing.clear();
                 self.hand.unlearn_meanings();
@@ -274,8 +283,11 @@ impl<
         self.moving = false;
         self.open = (host.version, host.schema) == (VERSION, SCHEMA);
         self.beat = now.after(HEARTBEAT);
+        self.link.shut();
         self.introduce();
-        if !self.open {
+        if self.open {
+            self.challenge();
+        } else {
             self.fault(Fault::Schema {
                 unit: (VERSION, SCHEMA),
                 host: (host.version, host.schema),

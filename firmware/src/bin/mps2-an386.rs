@@ -15,6 +15,7 @@ fn main() -> ! {
     match Mps2An386::start() {
         Some(mut board) => {
             UNIT.restart(board.boot());
+            deictic_firmware::lock(UNIT);
             deictic_firmware::run(&mut board, UNIT)
         }
         None => loop {

@@ -16,6 +16,7 @@ fn main() -> ! {
     match NucleoG474Re::start() {
         Some(mut board) => {
             UNIT.restart(board.boot());
+            deictic_firmware::lock(UNIT);
             deictic_firmware::run(&mut board, UNIT)
         }
         None => loop {

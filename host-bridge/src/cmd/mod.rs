@@ -19,6 +19,7 @@ pub mod scene;
 mod scenes;
 mod sensing;
 pub mod setups;
+mod trust;
 pub mod understand;
 
 use miette::Report;

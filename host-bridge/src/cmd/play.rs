@@ -18,11 +18,12 @@ use super::pictures::{Draw, Pictures};
 use super::printer::Printer;
 use super::profile::Choice;
 use super::sensing::{Sensing, drain};
+use super::trust::Trust;
 use super::{advice, paint};
 use crate::explain;
 use crate::hand::source::{Address as Sensor, Source};
 use crate::language::Listener;
-use crate::link::{self, Address};
+use crate::link::Address;
 use crate::robot::address::reach;
 use crate::robot::{self, Event};
 use crate::script::{Script, Turn};
@@ -45,6 +46,8 @@ pub struct Play {
     /// How many times as fast as a careful arm the simulated one moves
     #[arg(long, default_value_t = 8.0)]
     haste: f32,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     files: Files,
     #[command(flatten)]
@@ -91,8 +94,7 @@ impl Play {
             explain: true,
             ..Configuration::DEFAULT
         };
-        let address = self.board.clone();
-        let opener = Box::new(move || link::open(&address));
+        let opener = self.trust.opener(&self.board, &self.robot)?;
         let robot = reach(&self.robot, &lexicon, self.haste)?;
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let printer = Printer {

@@ -21,10 +21,11 @@ use super::printer::Printer;
 use super::profile::Choice;
 use super::scenes::Scenes;
 use super::sensing::{Sensing, drain};
+use super::trust::Trust;
 use super::{advice, paint};
 use crate::language::Listener;
 use crate::language::speech::Heard;
-use crate::link::{self, Address};
+use crate::link::Address;
 use crate::robot::{self, address::reach};
 use crate::scene::SceneLine;
 use crate::sensor::{Noise, Sensors};
@@ -62,6 +63,8 @@ pub struct Run {
     /// How many times as fast as a careful arm the simulated one moves
     #[arg(long, default_value_t = 1.0)]
     haste: f32,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     files: Files,
     /// Read the scene file again whenever it changes
@@ -122,8 +125,7 @@ impl Run {
             ..Configuration::DEFAULT
         };
         let robot = reach(&self.robot, &lexicon, self.haste)?;
-        let address = self.board.clone();
-        let opener = Box::new(move || link::open(&address));
+        let opener = self.trust.opener(&self.board, &self.robot)?;
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let setup = self.sensing.setup(session.table(), &lexicon)?;
         let mut hand = self.sensing.open(session.table(), &lexicon)?;

@@ -51,6 +51,10 @@ pub fn fault(fault: &Fault) -> Advice {
             "say the command again",
         ),
         Fault::Hand(fault) => hand_fault(fault),
+        Fault::NotProven => Advice::new(
+            "the unit was not shown the key that it was flashed with",
+            "give its own key: --key FILE",
+        ),
     }
 }
 

@@ -168,7 +168,9 @@ impl<'a> Listener<'a> {
                 corrects: planned.corrects,
             })
         });
-        let commands = commands.collect::<Result<_, LanguageError>>()?;
+        let mut commands: Vec<Command> = commands.collect::<Result<_, LanguageError>>()?;
+        // "me, it!" names nothing and points at nothing.
+        commands.retain(|c| !c.sentence.words().is_empty() || !c.pointed.is_empty());
         Ok(Utterance {
             commands,
             aside: plan.aside,

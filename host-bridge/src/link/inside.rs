@@ -4,6 +4,7 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use deictic_core::board::Unit;
+use deictic_core::protocol::seal::Key;
 use deictic_core::time::Micros;
 
 use super::Wire;
@@ -23,6 +24,11 @@ impl Inside {
             unit: Box::new(Unit::new(std::process::id())),
             began: clock::now(),
         }
+    }
+
+    /// The unit listens to nobody who has not shown to have this key.
+    pub fn lock(&mut self, key: Key) {
+        self.unit.lock(key);
     }
 
     fn now(&self) -> Micros {

@@ -11,6 +11,8 @@ mod tcp;
 use std::io;
 use std::time::Duration;
 
+use deictic_core::protocol::seal::Key;
+
 pub use address::{Address, AddressError, Line, LineError};
 pub use inside::Inside;
 pub use qemu::{IMAGE_VARIABLE, QEMU};
@@ -30,6 +32,33 @@ pub trait Wire: Send {
     /// # Errors
     /// When the wire is gone.
     fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize>;
+
+    /// What the other end must show to have; without it anybody is believed.
+    fn key(&self) -> Option<Key> {
+        None
+    }
+}
+
+/// A wire to a unit that must have this key.
+pub struct Locked {
+    /// The wire.
+    pub wire: Box<dyn Wire>,
+    /// The key.
+    pub key: Key,
+}
+
+impl Wire for Locked {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.wire.write(bytes)
+    }
+
+    fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
+        self.wire.read(buffer, patience)
+    }
+
+    fn key(&self) -> Option<Key> {
+        Some(self.key.clone())
+    }
 }
 
 /// A wire could not be opened.

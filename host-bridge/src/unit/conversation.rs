@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 
 use deictic_core::large::{self, Scene, Sentence, ToHost, ToUnit, Vocabulary};
 use deictic_core::protocol::message::{
-    ACTIONS_PART, Capacities, Configuration, ENTITIES_PART, Fault, Heartbeat, Hello, Loaded,
+    ACTIONS_PART, Capacities, Configuration, ENTITIES_PART, Fault, Heartbeat, Hello, Loaded, Proof,
     ScenePart, SentencePart, VocabularyPart, WORDS_PART,
 };
+use deictic_core::protocol::seal::{Nonces, Way};
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
 use deictic_core::time::Micros;
@@ -37,9 +38,13 @@ impl Conversation {
     /// Nothing has been said.
     pub fn new(wire: Box<dyn Wire>) -> Self {
         let now = clock::now();
+        let mut link = Box::<large::Link>::default();
+        if let Some(key) = wire.key() {
+            link.lock(key, Way::ToUnit);
+        }
         Self {
             wire,
-            link: Box::default(),
+            link,
             began: now,
             heard_at: now,
             pending: Vec::new(),
@@ -105,6 +110,9 @@ impl Conversation {
         for _ in 0..ATTEMPTS {
             self.pending.clear();
             let hello = self.greet()?;
+            if !self.prove()? {
+                continue;
+            }
             check_capacities(&hello.capacities, vocabulary, scene)?;
             self.say_vocabulary(vocabulary)?;
             if !self.is_loaded(Loaded::Vocabulary(vocabulary.fingerprint()))? {
@@ -129,6 +137,7 @@ impl Conversation {
             boot: std::process::id(),
             capacities: large::Unit::capacities(),
         };
+        self.link.shut();
         // Ends whatever half a frame the unit may have heard of an earlier host.
         self.wire.write(&[0]).map_err(UnitError::Broken)?;
         let until = clock::now() + PATIENCE;
@@ -136,18 +145,58 @@ impl Conversation {
             self.say(&ToUnit::Hello(ours))?;
             let again = clock::now() + AGAIN;
             while let Some(left) = clock::until(again) {
-                for (message, _) in self.hear(left)? {
+                let mut heard = self.hear(left)?.into_iter();
+                while let Some((message, _)) = heard.next() {
                     if let ToHost::Hello(theirs) = message {
                         let (unit, host) = ((theirs.version, theirs.schema), (VERSION, SCHEMA));
                         if unit != host {
                             return Err(UnitError::Schema { unit, host });
                         }
+                        self.pending = heard.collect();
                         return Ok(theirs);
                     }
                 }
             }
         }
         Err(UnitError::NoAnswer)
+    }
+
+    /// Shows the unit that this end has the key, and has it show the same; nothing to do without one. `false` when it
+    /// began anew instead.
+    fn prove(&mut self) -> Result<bool, UnitError> {
+        let Some(mut key) = self.link.key().cloned() else {
+            let is_challenge = |(m, _): &(ToHost, u16)| matches!(m, ToHost::Challenge(_));
+            return match self.pending.iter().any(is_challenge) {
+                true => Err(UnitError::WantsKey),
+                false => Ok(true),
+            };
+        };
+        let until = clock::now() + PATIENCE;
+        let mut asked = false;
+        while let Some(left) = clock::until(until) {
+            for (message, _) in self.hear(left.min(AGAIN))? {
+                match message {
+                    ToHost::Hello(_) => return Ok(false),
+                    ToHost::Challenge(unit) if !asked => {
+                        asked = true;
+                        let host = getrandom::u64().map_err(|e| {
+                            UnitError::Broken(io::Error::other(format!("no random numbers: {e}")))
+                        })?;
+                        let nonces = Nonces { unit, host };
+                        let proof = key.proof(nonces);
+                        self.say(&ToUnit::Prove(Proof { nonce: host, proof }))?;
+                        self.link.seal(nonces);
+                    }
+                    ToHost::Proven => return Ok(true),
+                    _ => {}
+                }
+            }
+        }
+        Err(if asked {
+            UnitError::OtherKey
+        } else {
+            UnitError::NoKey
+        })
     }
 
     fn say_vocabulary(&mut self, vocabulary: &Vocabulary) -> Result<(), UnitError> {
@@ -235,6 +284,7 @@ impl Conversation {
                         return Err(UnitError::Refused(fault));
                     }
                     ToHost::Hello(_) => return Ok(false),
+                    ToHost::Challenge(_) => return Err(UnitError::WantsKey),
                     other => others.push((other, missed)),
                 }
             }

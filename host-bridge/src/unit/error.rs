@@ -38,6 +38,23 @@ pub enum UnitError {
         /// This bridge's.
         host: (u16, u32),
     },
+    /// There is a key here, and the unit does not ask for one.
+    #[error("the unit has no key, and this bridge does")]
+    #[diagnostic(help(
+        "anybody on the line could speak for such a unit: flash it with the key (`DEICTIC_KEY=FILE cargo run --release` in \
+         firmware/), or leave --key out"
+    ))]
+    NoKey,
+    /// The unit asks for a key, and there is none here.
+    #[error("the unit wants to see a key")]
+    #[diagnostic(help("give the file that it was flashed with: --key FILE"))]
+    WantsKey,
+    /// The unit does not show that it has the same key.
+    #[error("the unit has another key")]
+    #[diagnostic(help(
+        "is it the board that this key was made for? Flash it anew with `DEICTIC_KEY=FILE`, or give its own --key FILE"
+    ))]
+    OtherKey,
     /// The vocabulary or scene is larger than the unit can hold.
     #[error("the unit holds {capacity} {what}, and there are {wanted}")]
     #[diagnostic(help(

@@ -80,7 +80,7 @@ fn any(bytes: &[u8]) {
     assert_eq!(accepted(bytes), expected(bytes));
 }
 
-/// A frame is what another implementation makes of it; cut anywhere, it gives nothing, and the next one is whole.
+/// A frame is what another implementation makes of it; cut anywhere, the next one is whole all the same.
 fn cut(contents: &[u8]) {
     let frame = framed(contents);
     let mut plain = contents.to_vec();
@@ -93,11 +93,18 @@ fn cut(contents: &[u8]) {
         line.push(0);
         let end = line.len() + frame.len() - 1;
         line.extend(&frame);
-        assert_eq!(accepted(&line), [(end, contents.to_vec())], "cut at {at}");
+        let accepted = accepted(&line);
+        assert_eq!(
+            accepted.last(),
+            Some(&(end, contents.to_vec())),
+            "cut at {at}"
+        );
+        // Contents may hold the CRC of their own beginning, and a fuzzer finds out how.
+        assert_eq!(accepted, expected(&line), "cut at {at}");
     }
 }
 
-/// Of a line with up to eight flipped bits only frames are accepted that were on it.
+/// A line with up to eight flipped bits holds the same frames for both implementations.
 fn damaged(bytes: &[u8]) {
     let mut source = Source::new(bytes);
     let flips: Vec<(usize, u8)> = (0..1 + source.small(8))
@@ -108,16 +115,10 @@ fn damaged(bytes: &[u8]) {
         return;
     }
     let mut line = framed(contents);
-    let sound = line.clone();
     for (at, bit) in flips {
         if let Some(byte) = line.get_mut(at) {
             *byte ^= 1 << bit;
         }
     }
-    for (_, got) in accepted(&line) {
-        assert!(
-            line == sound || got == contents,
-            "a damaged frame was accepted"
-        );
-    }
+    assert_eq!(accepted(&line), expected(&line));
 }

@@ -7,7 +7,7 @@ use deictic_core::profile::{BetaScope, Missing, Model, Presence, Profile};
 use deictic_core::sentence::MODALITIES;
 use deictic_core::vocabulary::Requirement;
 
-use super::{Margin, Merged, cross_entropy, decide, normalised};
+use super::{Margin, Merged, cross_entropy, decide, is_faint, normalised};
 
 /// What the penalties made of the action word.
 pub struct Penalties {
@@ -95,6 +95,7 @@ pub fn category(
         });
     }
     let mut word = merged.unwrap_or_default();
+    let faint = is_faint(&word);
     if profile.threshold.is_relative() {
         word = normalised(&word);
     }
@@ -104,6 +105,7 @@ pub fn category(
         word,
         h,
         entropy,
+        faint,
     }
 }
 
@@ -155,6 +157,7 @@ pub fn penalise_actions(
     {
         *w *= alpha * beta;
     }
+    actions.faint |= is_faint(&actions.word);
     if profile.threshold.is_relative() {
         actions.word = normalised(&actions.word);
     }

@@ -37,6 +37,17 @@ pub struct Merged {
     pub h: Vec<f64>,
     /// Its normalised entropy.
     pub entropy: f64,
+    /// Whether what was left before it was normalised is below anything that 32-bit floats tell apart.
+    pub faint: bool,
+}
+
+/// Below this the product of four modalities leaves the range of 32-bit floats.
+const FAINT: f64 = 1e-30;
+
+/// Whether a word is there, and hardly.
+fn is_faint(word: &[f64]) -> bool {
+    let largest = word.iter().copied().fold(0.0, f64::max);
+    largest > 0.0 && largest < FAINT
 }
 
 /// Everything the method computes on the way to its decision.
