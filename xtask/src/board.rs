@@ -5,6 +5,7 @@ use std::process::Stdio;
 
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
+use object::{Object, ObjectSymbol};
 use serde_json::Value;
 
 use crate::toolchain::Toolchain;
@@ -47,6 +48,34 @@ pub fn build(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
 /// Builds one of the images that try the board in QEMU: `bench`, `bits` or `faults`.
 pub fn build_trial(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
     build_image(toolchain, "bench", name)
+}
+
+/// Whether the image that calls all of the core links, holds no formatting, and does not link any more once an index that can
+/// panic is added.
+pub fn check_interface(toolchain: &Toolchain) -> Result<()> {
+    let image = build_image(toolchain, "interface", "interface")?;
+    let bytes = std::fs::read(&image)?;
+    let file = object::File::parse(&*bytes)?;
+    let formats: Vec<String> = file
+        .symbols()
+        .filter_map(|symbol| symbol.name().ok())
+        .map(|name| format!("{:#}", rustc_demangle::demangle(name)))
+        .filter(|name| name.contains("core::fmt::"))
+        .collect();
+    if !formats.is_empty() {
+        bail!(
+            "the core can be brought to format text: {}",
+            formats.join(", ")
+        );
+    }
+    let mut cargo = toolchain.firmware_cargo("build");
+    cargo.args(["--release", "--features", "indexing", "--bin", "interface"]);
+    let output = cargo.output().context("cannot start cargo")?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() || !said.contains("deictic_panic_path_reachable") {
+        bail!("an index that can panic went unnoticed by the linker: {said}");
+    }
+    Ok(())
 }
 
 fn build_image(toolchain: &Toolchain, feature: &str, image: &str) -> Result<PathBuf> {

@@ -12,6 +12,7 @@ use deictic::unit::UNIT_LOST;
 use deictic::vocabulary::Lexicon;
 use deictic_bits::random::Random;
 use deictic_core::category::Category;
+use deictic_core::decide::Outcome;
 use deictic_core::large::Sentence;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::sentence::LANGUAGE;
@@ -105,6 +106,7 @@ pub fn run(setting: &Setting, seed: u64) -> Account {
     let robot = Watch::new(1.0 + random.below(8) as f32);
     let wire = world.clone();
     let mut trial = Trial {
+        stop: setting.lexicon.vocabulary().stop(),
         session: Session::open(
             Box::new(move || Ok(Box::new(wire.clone()) as Box<dyn Wire>)),
             Box::new(robot.clone()),
@@ -157,6 +159,8 @@ fn faults(random: &mut Random) -> Faults {
 }
 
 struct Trial<'a> {
+    /// The action that stops.
+    stop: Option<u8>,
     session: Session<'a>,
     world: World,
     /// When the session began, from which it counts the robot's time.
@@ -217,6 +221,17 @@ impl Trial<'_> {
 
     fn turn(&mut self) {
         let happened = self.session.turn(TURN);
+        let stops = |h: &Happening| match h {
+            Happening::Decided { decision, .. } => match &decision.outcome {
+                Outcome::Execute(intent) => Some(intent.action) == self.stop,
+                _ => false,
+            },
+            _ => false,
+        };
+        if happened.last().is_some_and(stops) {
+            // By the unit's word: in the very moment in which it is heard, none of the arm's control periods later.
+            self.check_still();
+        }
         self.account.losses += happened
             .iter()
             .filter(|h| matches!(h, Happening::Lost(_)))
@@ -330,9 +345,7 @@ impl Trial<'_> {
         let refused = count(|h| matches!(h, Happening::Refused { .. } | Happening::Fault(_)));
         let distrusted = count(|h| matches!(h, Happening::Distrusted(_)));
         let asked = count(|h| match h {
-            Happening::Decided { decision, .. } => {
-                !matches!(decision.outcome, deictic_core::decide::Outcome::Execute(_))
-            }
+            Happening::Decided { decision, .. } => !matches!(decision.outcome, Outcome::Execute(_)),
             _ => false,
         });
         let overruled = count(|h| matches!(h, Happening::Overruled));
