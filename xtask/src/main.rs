@@ -11,6 +11,7 @@
 //! | `fci` | plays the session on an arm that speaks its own network interface (franka-sim) |
 //! | `can` | tries the robot's links on a real CAN bus, if need be in a Linux of its own |
 //! | `fuzz` | fuzzes every door of core and bridge |
+//! | `interface` | sees that nothing in the core can panic or format |
 //! | `key` | makes a key for one board |
 //! | `faults` | plays sessions under faults of every kind |
 
@@ -45,6 +46,7 @@ enum Command {
     Fuzz(cmd::fuzz::Fuzz),
     Faults(cmd::faults::Faults),
     Key(cmd::key::MakeKey),
+    Interface(cmd::interface::Interface),
 }
 
 fn main() -> ExitCode {
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         Command::Fuzz(fuzz) => fuzz.run(),
         Command::Faults(faults) => faults.run(),
         Command::Key(key) => key.run(),
+        Command::Interface(interface) => interface.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

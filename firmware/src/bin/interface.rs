@@ -6,7 +6,6 @@
 #![no_main]
 
 use core::hint::black_box;
-use core::mem::MaybeUninit;
 
 use cortex_m_rt::entry;
 use deictic_core::align::Alignment;
@@ -38,11 +37,10 @@ fn any<T: Copy>(value: T) -> T {
 /// The units of both capacities, by all that can be said to them.
 macro_rules! unit {
     ($capacity:ident) => {{
-        static mut UNIT: MaybeUninit<$capacity::Unit> = MaybeUninit::uninit();
-        let unit = UNIT.write($capacity::Unit::new(any(1)));
+        // On the stack, however large: nobody runs this.
+        let mut unit = $capacity::Unit::new(any(1));
         let now = Micros(any(5));
         let bytes = any([0_u8; 64]);
-        unit.set_boot(any(2));
         unit.restart(any(4));
         if let Some(mut key) = Key::new(&any([3; 32])) {
             black_box(key.is_proof(
@@ -66,23 +64,20 @@ macro_rules! unit {
 /// Vocabulary, scene, sentences and a decision of one size.
 macro_rules! decision {
     ($capacity:ident) => {{
-        static mut VOCABULARY: $capacity::Vocabulary = $capacity::Vocabulary::EMPTY;
-        static mut SCENE: MaybeUninit<$capacity::Scene> = MaybeUninit::uninit();
-        static mut OBSERVED: MaybeUninit<$capacity::Observations> = MaybeUninit::uninit();
-        static mut TRACE: MaybeUninit<$capacity::Trace> = MaybeUninit::uninit();
-        let scene = SCENE.write($capacity::Scene::new(any(1)));
-        let observed = OBSERVED.write($capacity::Observations::new());
-        let trace = TRACE.write($capacity::Trace::new());
+        let mut vocabulary = $capacity::Vocabulary::EMPTY;
+        let mut scene = $capacity::Scene::new(any(1));
+        let mut observed = $capacity::Observations::new();
+        let mut trace = $capacity::Trace::new();
         let actions = any([deictic_core::vocabulary::Action::default(); 3]);
-        let set = VOCABULARY.set(&actions, &any([3, 2]), any(4), any(Some(0)), any(7));
+        let set = vocabulary.set(&actions, &any([3, 2]), any(4), any(Some(0)), any(7));
         black_box(set.is_ok());
         let thing = $capacity::Entity {
             category: any(Category::OBJECT),
             option: any(1),
             position: any([0.1; 3]),
-            features: any([0.5; 4]).into_iter().collect(),
+            features: heapless::Vec::from_slice(&any([0.5; 4])).unwrap_or_default(),
         };
-        black_box(scene.push(thing, VOCABULARY).is_ok());
+        black_box(scene.push(thing, &vocabulary).is_ok());
         black_box(scene.find(any(Category::STORAGE), any(1)).is_some());
         let mut sentence = $capacity::Sentence::new(any(1));
         if let Ok(word) = $capacity::Word::new(&any([0.5, 0.5]), &any([0.1, 0.9, 0.3])) {
@@ -97,9 +92,9 @@ macro_rules! decision {
             black_box(sentence.push(word).is_ok());
         }
         black_box($capacity::Word::certain(any(Category::OBJECT), &any([0.5; 3])).is_ok());
-        black_box(observed.insert(&sentence, VOCABULARY).is_ok());
-        black_box(observed.append(any(3), &sentence, VOCABULARY).is_ok());
-        let aligned = Alignment::of(observed);
+        black_box(observed.insert(&sentence, &vocabulary).is_ok());
+        black_box(observed.append(any(3), &sentence, &vocabulary).is_ok());
+        let aligned = Alignment::of(&observed);
         black_box((
             aligned.presence(any(Category::OBJECT)),
             aligned.slot(any(Category::ACTION)).len(),
@@ -114,13 +109,15 @@ macro_rules! decision {
         ];
         for profile in any(profiles) {
             let situation = Situation {
-                vocabulary: VOCABULARY,
-                scene,
-                observations: observed,
+                vocabulary: &vocabulary,
+                scene: &scene,
+                observations: &observed,
             };
-            black_box(fuse(situation, &profile, trace).is_ok());
-            black_box(decide(VOCABULARY, scene, &profile, trace).best.is_some());
-            black_box(joint::fuse(situation, Tables::NONE, &any(Profile::JOINT), trace).is_ok());
+            black_box(fuse(situation, &profile, &mut trace).is_ok());
+            black_box(decide(&vocabulary, &scene, &profile, &trace).best.is_some());
+            black_box(
+                joint::fuse(situation, Tables::NONE, &any(Profile::JOINT), &mut trace).is_ok(),
+            );
             black_box(profile.weight(any(9)));
         }
         for word in trace.categories() {
@@ -132,7 +129,7 @@ macro_rules! decision {
         }
         observed.clear();
         trace.clear();
-        VOCABULARY.clear();
+        vocabulary.clear();
     }};
 }
 
@@ -217,7 +214,7 @@ fn lines() {
     }
     let packet = Packet {
         id: any(0x20),
-        bytes: bytes.into_iter().take(any(30)).collect(),
+        bytes: heapless::Vec::from_slice(bytes.get(..any(30)).unwrap_or(&[])).unwrap_or_default(),
     };
     for sender in [Sender::Host, Sender::Robot] {
         let mut assembler = Assembler::new(sender);

@@ -7,6 +7,7 @@ pub mod faults;
 pub mod fci;
 pub mod firmware;
 pub mod fuzz;
+pub mod interface;
 pub mod key;
 pub mod qemu;
 pub mod setup;
