@@ -45,6 +45,16 @@ pub fn build(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
     build_image(toolchain, board.name(), board.name())
 }
 
+/// Builds the unit's release image whose host link is a CAN bus, and says where it is: beside the other one.
+pub fn build_on_can(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
+    let name = board.name();
+    let built = build_image(toolchain, &format!("{name},can"), name)?;
+    // Cargo puts both images at the same place.
+    let kept = built.with_file_name(format!("{name}-can"));
+    std::fs::copy(&built, &kept).with_context(|| format!("cannot write {}", kept.display()))?;
+    Ok(kept)
+}
+
 /// Builds one of the images that try the board in QEMU: `bench`, `bits` or `faults`.
 pub fn build_trial(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
     build_image(toolchain, "bench", name)

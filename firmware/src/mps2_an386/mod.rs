@@ -24,6 +24,7 @@ use crate::arm::journal::Journal;
 use crate::arm::{clock, fault, guard, log};
 use crate::{Board, Turn};
 use uart::UartStream;
+
 use vectors::Interrupt;
 use watchdog::Watchdog;
 
@@ -35,9 +36,34 @@ const BAUD: u32 = 921_600;
 /// Longest sleep; the watchdog waits 5 s.
 const LONGEST_SLEEP: Micros = Micros::from_millis(100);
 
+/// The host link: UART0.
+#[cfg(not(feature = "can"))]
+pub type Link = UartStream;
+/// The host link: UART1 as a LAWICEL adapter.
+#[cfg(feature = "can")]
+pub type Link = crate::can::CanLink<crate::adapter::SerialCan<UartStream>>;
+
+#[cfg(not(feature = "can"))]
+fn start_link() -> Link {
+    uart::LINK.start(HZ, BAUD)
+}
+
+#[cfg(feature = "can")]
+fn start_link() -> Link {
+    crate::can::CanLink::new(crate::adapter::SerialCan::new(
+        uart::ADAPTER.start(HZ, BAUD),
+    ))
+}
+
+#[cfg(feature = "can")]
+use uart::ADAPTER as CARRIER;
+/// The UART that the link goes over.
+#[cfg(not(feature = "can"))]
+use uart::LINK as CARRIER;
+
 /// The running board.
 pub struct Mps2An386 {
-    link: UartStream,
+    link: Link,
     sensor: UartStream,
     watchdog: Watchdog,
     boot: u32,
@@ -51,9 +77,9 @@ impl Mps2An386 {
         let mut core = cortex_m::Peripherals::take()?;
         guard::enable(&mut core.MPU);
         clock::start(core.SYST);
-        let link = uart::LINK.start(HZ, BAUD);
+        let link = start_link();
         let sensor = uart::SENSOR.start(HZ, BAUD);
-        for interrupt in Interrupt::ALL {
+        for &interrupt in Interrupt::ALL {
             // SAFETY: the handlers share data with the loop only inside critical sections.
             unsafe { NVIC::unmask(interrupt) };
         }
@@ -79,14 +105,14 @@ impl Mps2An386 {
 }
 
 fn has_input() -> bool {
-    uart::LINK.port().has_input() || uart::SENSOR.port().has_input()
+    CARRIER.port().has_input() || uart::SENSOR.port().has_input()
 }
 
 impl Board for Mps2An386 {
-    type Link = UartStream;
+    type Link = Link;
     type Sensor = UartStream;
 
-    fn link(&mut self) -> &mut UartStream {
+    fn link(&mut self) -> &mut Link {
         &mut self.link
     }
 
@@ -108,8 +134,7 @@ impl Board for Mps2An386 {
     }
 
     fn log(&mut self, turn: Turn, statistics: Statistics) {
-        self.journal
-            .note(turn, statistics, uart::LINK.port().lost());
+        self.journal.note(turn, statistics, CARRIER.port().lost());
     }
 }
 

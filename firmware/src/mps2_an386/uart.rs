@@ -36,6 +36,13 @@ pub(super) static LINK: Uart = Uart {
     transmit: Interrupt::Uart0Tx,
     port: &LINK_PORT,
 };
+/// UART1: the host bridge's LAWICEL adapter.
+#[cfg(feature = "can")]
+pub(super) static ADAPTER: Uart = Uart {
+    base: 0x4000_5000,
+    transmit: Interrupt::Uart1Tx,
+    port: &ADAPTER_PORT,
+};
 /// UART2: the hand sensor.
 pub(super) static SENSOR: Uart = Uart {
     base: 0x4000_6000,
@@ -43,6 +50,8 @@ pub(super) static SENSOR: Uart = Uart {
     port: &SENSOR_PORT,
 };
 static LINK_PORT: Port<RX, TX> = Port::new();
+#[cfg(feature = "can")]
+static ADAPTER_PORT: Port<RX, TX> = Port::new();
 static SENSOR_PORT: Port<RX, TX> = Port::new();
 
 impl Uart {

@@ -10,12 +10,25 @@ use super::uart;
 pub(super) enum Interrupt {
     Uart0Rx = 0,
     Uart0Tx = 1,
+    #[cfg(feature = "can")]
+    Uart1Rx = 2,
+    #[cfg(feature = "can")]
+    Uart1Tx = 3,
     Uart2Rx = 4,
     Uart2Tx = 5,
 }
 
 impl Interrupt {
-    pub(super) const ALL: [Self; 4] = [Self::Uart0Rx, Self::Uart0Tx, Self::Uart2Rx, Self::Uart2Tx];
+    pub(super) const ALL: &[Self] = &[
+        Self::Uart0Rx,
+        Self::Uart0Tx,
+        #[cfg(feature = "can")]
+        Self::Uart1Rx,
+        #[cfg(feature = "can")]
+        Self::Uart1Tx,
+        Self::Uart2Rx,
+        Self::Uart2Tx,
+    ];
 }
 
 // SAFETY: the numbers are those of the data sheet and different.
@@ -31,8 +44,8 @@ unsafe impl InterruptNumber for Interrupt {
 static __INTERRUPTS: [Option<extern "C" fn()>; 6] = [
     Some(uart0_rx),
     Some(uart0_tx),
-    None,
-    None,
+    UART1_RX,
+    UART1_TX,
     Some(uart2_rx),
     Some(uart2_tx),
 ];
@@ -43,6 +56,25 @@ extern "C" fn uart0_rx() {
 
 extern "C" fn uart0_tx() {
     uart::LINK.transmit();
+}
+
+#[cfg(not(feature = "can"))]
+const UART1_RX: Option<extern "C" fn()> = None;
+#[cfg(not(feature = "can"))]
+const UART1_TX: Option<extern "C" fn()> = None;
+#[cfg(feature = "can")]
+const UART1_RX: Option<extern "C" fn()> = Some(uart1_rx);
+#[cfg(feature = "can")]
+const UART1_TX: Option<extern "C" fn()> = Some(uart1_tx);
+
+#[cfg(feature = "can")]
+extern "C" fn uart1_rx() {
+    uart::ADAPTER.receive();
+}
+
+#[cfg(feature = "can")]
+extern "C" fn uart1_tx() {
+    uart::ADAPTER.transmit();
 }
 
 extern "C" fn uart2_rx() {

@@ -4,12 +4,14 @@
 //! |---|---|
 //! | host link | LPUART1, PA2/PA3, the ST-LINK's virtual COM port, 921600 baud, 8N1 |
 //! | hand sensor | USART1, PC4 (D1) TX, PC5 (D0) RX, 115200 baud, 8N1 |
-//! | CAN | FDCAN1, PA11 RX, PA12 TX, clocked with 24 MHz, off the bus |
+//! | CAN | FDCAN1, PA11 RX, PA12 TX, clocked with 24 MHz; off the bus without the feature `can`, with it the host link at 1 Mbit/s |
 //! | log | defmt over RTT: `cargo run --release` in `firmware/` shows it |
 //!
 //! Registers are used directly, through stm32-metapac: the HALs check their configuration with panics, which an image
 //! without panics cannot hold.
 
+#[cfg(feature = "can")]
+mod can;
 mod clocks;
 mod pins;
 mod uart;
@@ -33,9 +35,26 @@ const HZ: u32 = MHZ * 1_000_000;
 /// Longest sleep; the watchdog waits 2 s.
 const LONGEST_SLEEP: Micros = Micros::from_millis(100);
 
+/// The host link: LPUART1.
+#[cfg(not(feature = "can"))]
+pub type Link = UartStream;
+/// The host link: FDCAN1.
+#[cfg(feature = "can")]
+pub type Link = crate::can::CanLink<can::Fdcan>;
+
+#[cfg(not(feature = "can"))]
+fn start_link() -> Link {
+    uart::start_link()
+}
+
+#[cfg(feature = "can")]
+fn start_link() -> Link {
+    crate::can::CanLink::new(can::Fdcan::start())
+}
+
 /// The running board.
 pub struct NucleoG474Re {
-    link: UartStream,
+    link: Link,
     sensor: UartStream,
     watchdog: Watchdog,
     boot: u32,
@@ -58,7 +77,7 @@ impl NucleoG474Re {
         let boot = clocks::random();
         pins::connect();
         clocks::supply_can();
-        let link = uart::start_link();
+        let link = start_link();
         let sensor = uart::start_sensor();
         if !crystal {
             defmt::warn!("the 24 MHz crystal does not start: CAN is unusable");
@@ -88,14 +107,18 @@ impl NucleoG474Re {
 }
 
 fn has_input() -> bool {
+    #[cfg(feature = "can")]
+    if can::is_due() {
+        return true;
+    }
     uart::LINK.port().has_input() || uart::SENSOR.port().has_input()
 }
 
 impl Board for NucleoG474Re {
-    type Link = UartStream;
+    type Link = Link;
     type Sensor = UartStream;
 
-    fn link(&mut self) -> &mut UartStream {
+    fn link(&mut self) -> &mut Link {
         &mut self.link
     }
 

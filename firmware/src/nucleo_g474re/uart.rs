@@ -39,6 +39,7 @@ pub(super) const SENSOR: Uart = Uart {
     port: &SENSOR_PORT,
 };
 
+#[cfg_attr(feature = "can", allow(dead_code))]
 /// Starts LPUART1: its divider counts 256ths of the clock.
 pub(super) fn start_link() -> UartStream {
     RCC.apb1enr2().modify(|w| w.set_lpuart1en(true));

@@ -28,6 +28,10 @@ impl Test {
         let mut tests = cargo();
         tests.args(["test", "--workspace"]);
         for board in Board::ALL {
+            step(&format!("image for {} on a CAN bus", board.name()));
+            let image = board::build_on_can(&toolchain, board)?;
+            eprintln!("{}", image.display());
+            tests.env(format!("{}_CAN", board.image_variable()), image);
             step(&format!("image for {}", board.name()));
             let image = board::build(&toolchain, board)?;
             eprintln!("{}", image.display());
@@ -126,7 +130,13 @@ fn lints(toolchain: &Toolchain) -> Vec<(String, Command)> {
     docs.1.env("RUSTDOCFLAGS", "-D warnings");
     steps.push(docs);
     if toolchain.has_clippy() {
-        for feature in ["mps2-an386", "bench", "nucleo-g474re"] {
+        for feature in [
+            "mps2-an386",
+            "mps2-an386,can",
+            "bench",
+            "nucleo-g474re",
+            "nucleo-g474re,can",
+        ] {
             let mut command = toolchain.firmware_cargo("clippy");
             command.args(["--release", "--features", feature, "--", "-D", "warnings"]);
             steps.push((format!("lints of the firmware, {feature}"), command));

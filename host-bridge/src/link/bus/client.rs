@@ -13,12 +13,21 @@ use crate::link::Wire;
 /// How many refusals in a row an adapter may give before its bus counts as gone.
 const REFUSALS: u32 = 16;
 
+/// How many frames may be on their way to an adapter that acknowledges: 16 lines of 22 characters fit the
+/// queue of 512 that the unit has.
+const ON_THE_WAY: u32 = 16;
+
+/// How long an adapter may take to acknowledge; one that takes longer is one that never does.
+const ACKNOWLEDGES: Duration = Duration::from_millis(300);
+
 /// The bridge's end of such a line.
 pub struct Client {
     wire: Box<dyn Wire>,
     lines: Lines,
     arrived: VecDeque<Frame>,
     refusals: u32,
+    on_the_way: u32,
+    acknowledges: bool,
     /// Lines that made no sense.
     damaged: u64,
 }
@@ -36,6 +45,8 @@ impl Client {
             lines: Lines::new(),
             arrived: VecDeque::new(),
             refusals: 0,
+            on_the_way: 0,
+            acknowledges: true,
             damaged: 0,
         })
     }
@@ -51,7 +62,10 @@ impl Client {
             match self.lines.hear(byte) {
                 None => {}
                 Some(Heard::Frame(frame)) => self.arrived.push_back(frame),
-                Some(Heard::Other) => self.refusals = 0,
+                Some(Heard::Other) => {
+                    self.refusals = 0;
+                    self.on_the_way = self.on_the_way.saturating_sub(1);
+                }
                 Some(Heard::Damaged) => self.damaged = self.damaged.saturating_add(1),
                 Some(Heard::Refused) => {
                     self.refusals += 1;
@@ -67,6 +81,13 @@ impl Client {
 
 impl Bus for Client {
     fn send(&mut self, frame: &Frame) -> io::Result<()> {
+        let mut buffer = [0; 512];
+        while self.acknowledges && self.on_the_way >= ON_THE_WAY {
+            let read = self.wire.read(&mut buffer, ACKNOWLEDGES)?;
+            self.hear(buffer.get(..read).unwrap_or(&[]))?;
+            self.acknowledges = read > 0;
+        }
+        self.on_the_way = self.on_the_way.saturating_add(1);
         self.wire.write(&line(frame))
     }
 
