@@ -8,8 +8,8 @@
 //! | `mps2-an386` | QEMU `-M mps2-an386` (Cortex-M4F, 25 MHz) | UART0 | UART2 | RTT ring, read out over semihosting |
 //! | `nucleo-g474re` | NUCLEO-G474RE (Cortex-M4F, 170 MHz, FDCAN) | LPUART1 (ST-LINK's virtual COM port), 921600 baud | USART1 on PC4/PC5, 115200 baud | RTT |
 //!
-//! With the feature `can` the host link is a node on a CAN bus ([`can`]): FDCAN1 on the real board, and a LAWICEL adapter
-//! ([`adapter`]) on the second UART of the emulated one, which has no controller.
+//! With the feature `can` the host link is a node on a CAN bus (`can.rs`): FDCAN1 on the real board, and a LAWICEL adapter
+//! (`adapter.rs`) on the second UART of the emulated one, which has no controller.
 //!
 //! In a release image no panic can be reached: the panic handler calls a function that nowhere exists, so an image
 //! that still holds a panic does not link.
