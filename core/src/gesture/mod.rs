@@ -5,7 +5,7 @@
 //!                                     -> movement -> stroke ┴─────────────┴> word -> Sentence
 //! ```
 //!
-//! [`reader::HandReader`] runs all of it: one sample in, at most one [`reader::Event`] out.
+//! [`reader::HandReader`] runs all of it: one sample in, at most one [`context::Event`] out.
 
 mod bits;
 pub mod context;

@@ -91,7 +91,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         self.tracking.hand()
     }
 
-    /// Probability of every [`Shape`], of the last moments.
+    /// Probability of every [`super::shape::Shape`], of the last moments.
     #[must_use]
     pub fn shapes(&self) -> &[f32; SHAPES] {
         self.shapes.belief()
