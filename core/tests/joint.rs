@@ -252,3 +252,37 @@ fn an_action_whose_storage_nobody_gave_is_asked_about() {
     // Which action, since the words' presence speaks for another one than the words themselves.
     assert_eq!(question(&decision), (Category::ACTION, Reason::TooClose));
 }
+
+#[test]
+fn a_trace_that_was_used_before_changes_nothing() {
+    let paper = vocabulary();
+    let vocabulary = Vocabulary::new(paper.actions(), &[5, 4, 1, 2], 10, Some(STOP), 7).unwrap();
+    let direction = Category::from_index(4).unwrap();
+    let scene = scene();
+    let belief = |trace: &mut Trace, direction_said: [f32; 2]| {
+        let mut said = clear(
+            0,
+            &[(Category::ACTION, PICK, 9), (Category::OBJECT, CAN, 5)],
+        );
+        said.push(Word::certain(direction, &direction_said).unwrap())
+            .unwrap();
+        let mut observations = Observations::new();
+        observations.insert(said, &vocabulary).unwrap();
+        let situation = Situation {
+            vocabulary: &vocabulary,
+            scene: &scene,
+            observations: &observations,
+        };
+        let decision = joint::fuse(situation, Tables::NONE, &JOINT, trace);
+        (
+            decision,
+            trace.belief,
+            trace.categories()[4].merged().to_vec(),
+        )
+    };
+    let fresh = belief(&mut Trace::new(), [1.0, 0.3]);
+    assert!(fresh.2[0] > 0.9, "{:?}", fresh.2);
+    let mut used = Trace::new();
+    belief(&mut used, [0.2, 0.9]);
+    assert_eq!(belief(&mut used, [1.0, 0.3]), fresh);
+}

@@ -159,13 +159,15 @@ fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W
         }
     }
     let clearest = |category: Category, chosen: u8| {
+        // At the first level errors are small or large by chance, which says nothing of what is meant.
+        let level = found.level.max(1);
         let named = trace.evidence.named(category);
         let named = named.get(..trace.category(category)?.merged().len())?;
-        let at = |o: u8| named.get(usize::from(o)).map(|costs| costs.at(found.level));
+        let at = |o: u8| named.get(usize::from(o)).map(|costs| costs.at(level));
         let least = (0_u8..)
             .zip(named)
-            .min_by_key(|(_, costs)| costs.at(found.level))?;
-        let clearer = at(chosen)?.saturating_sub(least.1.at(found.level)) > CLEARER;
+            .min_by_key(|(_, costs)| costs.at(level))?;
+        let clearer = at(chosen)?.saturating_sub(least.1.at(level)) > CLEARER;
         clearer.then_some(least.0)
     };
     for parameter in best.parameters.iter().filter(|p| p.category.is_entity()) {

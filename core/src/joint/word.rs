@@ -81,7 +81,7 @@ pub struct Room<'a> {
     pub sums: &'a mut [Costs],
     /// Those with other signatures raised.
     pub raised: &'a mut [Costs],
-    /// What its own element costs every option; added to.
+    /// What its own element costs every option; added to. Empty where nobody wants to know.
     pub named: &'a mut [Costs],
 }
 
@@ -106,12 +106,14 @@ impl Reading<'_> {
         let n = self.likelihoods.len();
         let mut sum = Costs::ZERO;
         let mut diagonal = self.rows.bytes.iter().step_by(n.saturating_add(1));
-        let places = room.elements.iter_mut().zip(&mut *room.named);
-        for ((element, named), &seen) in places.zip(self.likelihoods) {
+        let mut named = room.named.iter_mut();
+        for (element, &seen) in room.elements.iter_mut().zip(self.likelihoods) {
             element.seen = (seen * 255.0 + 0.5) as u32 as u8;
             element.at_end = element.seen.wrapping_add(1) < 2;
             let own = element.cost(diagonal.next().copied().unwrap_or(u8::MAX));
-            *named = named.plus(own);
+            if let Some(named) = named.next() {
+                *named = named.plus(own);
+            }
             element.own = own;
             element.other = own.plus(rival);
             if raises {
