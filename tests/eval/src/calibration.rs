@@ -1,7 +1,7 @@
 //! The joint model's confidence and cut, fitted to generated samples.
 //!
 //! [`fit`] scales the posterior's logit by noise class (Platt) and finds the shape of the cut.
-//! [`test`] then shifts that shape by learn-then-test (Angelopoulos et al. 2021): a fixed sequence
+//! [`mod@test`] then shifts that shape by learn-then-test (Angelopoulos et al. 2021): a fixed sequence
 //! of shifts, from cautious to bold, each tested for "in some cell more than 1 % of all commands are
 //! executed wrongly" with the largest exact binomial p-value over all cells, until the first that
 //! cannot be refuted at 5 %. A maximum of p-values is valid for such a union and a fixed sequence
