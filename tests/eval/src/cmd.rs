@@ -54,3 +54,12 @@ fn print_json(value: &impl serde::Serialize) -> anyhow::Result<()> {
     println!("{}", serde_json::to_string_pretty(value)?);
     Ok(())
 }
+
+/// Reads a number of samples.
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("at least 1 sample is needed".to_owned()),
+        Ok(n) => Ok(n),
+        Err(error) => Err(format!("{error}: a whole number is needed")),
+    }
+}

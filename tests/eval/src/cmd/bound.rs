@@ -17,7 +17,7 @@ pub struct Bound {
     #[arg(long, value_name = "DIR")]
     sets: Option<PathBuf>,
     /// Samples per set where sets are made
-    #[arg(long, default_value_t = 1000)]
+    #[arg(long, default_value_t = 1000, value_parser = super::at_least_one)]
     samples: usize,
     /// Seed of sets made here
     #[arg(long, default_value_t = 1)]

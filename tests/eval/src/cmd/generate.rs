@@ -21,7 +21,7 @@ pub struct Generate {
     #[arg(long, value_name = "FILE")]
     vocabulary: Option<PathBuf>,
     /// Samples per set
-    #[arg(long, default_value_t = 1000)]
+    #[arg(long, default_value_t = 1000, value_parser = super::at_least_one)]
     samples: usize,
     /// Seed; the same seed gives the same sets
     #[arg(long, default_value_t = 1)]

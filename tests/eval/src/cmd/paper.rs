@@ -35,7 +35,7 @@ pub struct Paper {
     #[arg(long, value_name = "FILE")]
     setups: Option<PathBuf>,
     /// Samples per set where sets are made
-    #[arg(long, default_value_t = 4000)]
+    #[arg(long, default_value_t = 4000, value_parser = super::at_least_one)]
     samples: usize,
     /// Seed of sets made here
     #[arg(long, default_value_t = 1)]
@@ -96,7 +96,10 @@ impl Paper {
         let simulated = match &self.sets {
             Some(folder) => {
                 let (catalogue, sets) = dataset::read_folder(folder)?;
-                source = format!("The simulated sets are those of {}.", name(folder));
+                source = format!(
+                    "The simulated sets are those of {}; D_free is made here where it has none.",
+                    name(folder)
+                );
                 Group {
                     catalogue,
                     sets,

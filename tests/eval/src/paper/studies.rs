@@ -146,7 +146,7 @@ fn merge(results: &Results) -> Figure {
     Figure {
         name: "merge",
         title: "Merge study".to_owned(),
-        caption: "The sum stands more noise than the product, and both more than the maximum: M3, \
+        caption: "The sum stands strong noise better than the product, and both more than the maximum: M3, \
                   entropy thresholds but for the maximum, which has none; aligned sets."
             .to_owned(),
         form: Form::Lines,
