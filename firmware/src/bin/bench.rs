@@ -1,5 +1,5 @@
-//! What a decision costs on the board: instructions (in QEMU with `-icount shift=10`) and stack. `cargo xtask budget`
-//! reads the lines `instructions NAME COUNT` and `stack NAME BYTES`.
+//! What a decision and the dearest frame of a hand cost on the board: instructions (in QEMU with `-icount shift=10`) and
+//! stack. `cargo xtask budget` reads the lines `instructions NAME COUNT` and `stack NAME BYTES`.
 #![no_std]
 #![no_main]
 
@@ -8,6 +8,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hprintln};
 use deictic_bits::Bench;
+use deictic_bits::hand::{HandBench, SESSIONS};
 use deictic_core::profile::{Model, Profile};
 use deictic_firmware::mps2_an386::measure::{Counter, stack_used};
 
@@ -17,6 +18,7 @@ const MODELS: [(&str, Model); 3] = [("m1", Model::M1), ("m2", Model::M2), ("m3",
 #[entry]
 fn main() -> ! {
     static mut BENCH: Bench = Bench::new();
+    static mut HAND: HandBench = HandBench::new();
     if let Some(core) = cortex_m::Peripherals::take() {
         let mut counter = Counter::new(core.SYST);
         BENCH.m3_case();
@@ -37,6 +39,8 @@ fn main() -> ! {
             );
         }
         measure("joint", &Profile::JOINT);
+        HAND.prepare();
+        hprintln!("instructions hand {}", worst_frame(HAND, &mut counter));
         debug::exit(debug::EXIT_SUCCESS);
     }
     loop {
@@ -49,4 +53,21 @@ fn main() -> ! {
 fn decide(bench: &mut Bench, profile: &Profile) {
     let decision = bench.decide(black_box(profile));
     black_box(decision.is_ok());
+}
+
+/// The most that reading one frame costs, from the first byte on the sensor's line to all that follows from it, be it a
+/// decision.
+fn worst_frame(bench: &mut HandBench, counter: &mut Counter) -> u32 {
+    let mut worst = 0;
+    for session in 0..SESSIONS {
+        let mut k = 0;
+        while let Some(frame) = bench.next(session, k) {
+            worst = counter
+                .instructions(|| bench.sense(black_box(frame.waiting())))
+                .max(worst);
+            bench.hear();
+            k = k.wrapping_add(1);
+        }
+    }
+    worst
 }

@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 
 mod digest;
+pub mod hand;
 pub mod random;
 mod sample;
 mod sensing;

@@ -47,7 +47,7 @@ const EMPTY: Requirement = need(REACHABLE, FULL_STACK | FULL_LIQUID | FULL_CONTA
 
 /// The paper's actions (Set of actions and objects): move up, release, stop, pick, push, unglue,
 /// pour, put into, stack.
-const ACTIONS: [Action; 9] = [
+pub const ACTIONS: [Action; 9] = [
     action(NOTHING, ANY, ANY),
     action(NOTHING, ANY, ANY),
     action(NOTHING, ANY, ANY),

@@ -1,5 +1,6 @@
 //! The hash over every figure of 75,000 decisions is the committed one, in every build.
 
+use deictic_bits::hand::{HandBench, SESSIONS};
 use deictic_bits::{Bench, GOLDEN, SAMPLES, START};
 use deictic_core::decide::Outcome;
 use deictic_core::profile::Profile;
@@ -66,5 +67,45 @@ fn a_bench_fits_beside_a_unit() {
         size_of::<Bench>() <= 12 * 1024,
         "{} bytes",
         size_of::<Bench>()
+    );
+}
+
+#[test]
+fn the_hand_of_the_budget_is_read_as_one_that_points_sweeps_and_leaves() {
+    let mut bench = HandBench::new();
+    bench.prepare();
+    assert_eq!(bench.unit().hand_view().no_stroke, 1.0);
+    let mut together = 0;
+    for session in 0..SESSIONS {
+        let (mut words, mut compared) = (Vec::new(), None);
+        for k in 0.. {
+            let Some(frame) = bench.next(session, k) else {
+                break;
+            };
+            let before = bench.unit().hand_view();
+            bench.sense(frame.waiting());
+            bench.hear();
+            let view = bench.unit().hand_view();
+            if view.words.len() > before.words.len() {
+                words.push(k);
+            }
+            if view.no_stroke < 0.5 && before.no_stroke == 1.0 {
+                compared = Some(k);
+            }
+        }
+        // Sixteen frames compare 128 templates. A hand that closes before the sweep has ended does not gesture.
+        if let Some(compared) = compared {
+            together += usize::from(words.iter().any(|k| (compared - 15..compared).contains(k)));
+        }
+    }
+    assert!(
+        together > 0,
+        "no word was closed while strokes were compared"
+    );
+    let decided = bench.unit().statistics();
+    assert_eq!(
+        decided.executes + decided.asks + decided.repeats,
+        SESSIONS,
+        "{decided:?}"
     );
 }

@@ -9,11 +9,13 @@ use crate::budget::{self, Figures, Golden, Image, WorstCase};
 use crate::cmd::setup;
 use crate::toolchain::Toolchain;
 
-/// Measure the unit's image against its golden figures: flash, RAM, worst-case stack, instructions per decision.
+/// Measure the unit's image against its golden figures: flash, RAM, worst-case stack, instructions of a decision and of
+/// the dearest frame of a hand.
 ///
 /// Fails when a figure is above its golden one (tests/expected/budget-BOARD-COMPILER.json) or above what the project
 /// promises. Instructions are counted in QEMU, where 1 takes 1024 ns of the board's time; the rest is read from the
-/// image. With --json: {"flash_bytes": n, "ram_bytes": n, "stack_bytes": n, "instructions": {"m3": n, ...}, ...}.
+/// image. With --json: {"flash_bytes": n, "ram_bytes": n, "stack_bytes": n, "instructions": {"hand": n, "m3": n, ...},
+/// ...}.
 #[derive(Args)]
 pub struct Budget {
     /// Whose image
