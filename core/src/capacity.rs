@@ -3,7 +3,8 @@
 /// Names the core's types for one set of capacities.
 macro_rules! capacities {
     ($(#[$doc:meta])* $name:ident: options $n:literal, categories $c:literal, features $f:literal,
-     entities $e:literal, words $w:literal, frame $frame:literal, outbox $out:literal) => {
+     entities $e:literal, words $w:literal, frame $frame:literal, outbox $out:literal,
+     sensors $sensors:literal) => {
         $(#[$doc])*
         pub mod $name {
             /// Options per category, actions included.
@@ -18,6 +19,8 @@ macro_rules! capacities {
             pub const WORDS: usize = $w;
             /// Bytes of the longest frame before stuffing.
             pub const FRAME: usize = $frame;
+            /// Bytes of sensors' tables: one per option, squared.
+            pub const SENSORS: usize = $sensors;
             /// [`crate::vocabulary::Vocabulary`] of these capacities.
             pub type Vocabulary = crate::vocabulary::Vocabulary<$n, $c, $f>;
             /// [`crate::scene::Scene`] of these capacities.
@@ -43,17 +46,19 @@ macro_rules! capacities {
             /// [`crate::protocol::link::Link`] of these capacities.
             pub type Link = crate::protocol::link::Link<$frame>;
             /// [`crate::unit::Unit`] of these capacities.
-            pub type Unit = crate::unit::Unit<$n, $c, $f, $e, $w, $frame, $out>;
+            pub type Unit = crate::unit::Unit<$n, $c, $f, $e, $w, $frame, $out, $sensors>;
         }
     };
 }
 
 capacities! {
     /// What a gesture unit with 16 KiB of RAM to spare holds: the paper's vocabulary twice over.
-    board: options 16, categories 8, features 16, entities 16, words 6, frame 256, outbox 1536
+    board: options 16, categories 8, features 16, entities 16, words 6, frame 256, outbox 1536,
+    sensors 512
 }
 
 capacities! {
     /// What a host or a large board holds.
-    large: options 64, categories 16, features 32, entities 128, words 8, frame 1024, outbox 16384
+    large: options 64, categories 16, features 32, entities 128, words 8, frame 1024, outbox 16384,
+    sensors 24576
 }

@@ -40,6 +40,8 @@ pub struct Situation<
     pub scene: &'a Scene<E, F>,
     /// What was said and shown.
     pub observations: &'a Observations<W, C, N>,
+    /// What the sensors report of each option, where that is known; the joint model goes by it.
+    pub sensors: Tables<'a>,
 }
 
 /// Decides with the profile's own mixing operator; see [`fuse_with`].
@@ -54,8 +56,7 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
     fuse_with(situation, profile, &profile.merge, trace)
 }
 
-/// Decides with any mixing operator, and leaves in `trace` why. The joint model mixes nothing; where
-/// sensors are known, [`joint::fuse`] takes them.
+/// Decides with any mixing operator, and leaves in `trace` why. The joint model mixes nothing.
 ///
 /// # Errors
 /// [`ProfileError`] when the profile is not sound; the trace is then empty.
@@ -66,7 +67,7 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
     trace: &mut Trace<C, N>,
 ) -> Result<Decision<C>, ProfileError> {
     if profile.model == Model::Joint {
-        return joint::fuse(situation, Tables::NONE, profile, trace);
+        return joint::fuse(situation, profile, trace);
     }
     profile.check().inspect_err(|_| trace.clear())?;
     trace.belief = Belief::NONE;
@@ -74,6 +75,7 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
         vocabulary,
         scene,
         observations,
+        ..
     } = situation;
     let mut aligned = Alignment::NONE;
     aligned.fill(observations);

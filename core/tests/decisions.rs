@@ -7,6 +7,7 @@ use deictic_core::board::{Observations, Trace, Word};
 use deictic_core::category::Category;
 use deictic_core::decide::{Outcome, Question, Reason};
 use deictic_core::fuse::{Situation, fuse_with};
+use deictic_core::joint::Tables;
 use deictic_core::merge::{Merge, Mix};
 use deictic_core::profile::{Model, Profile, ProfileError, Threshold};
 use deictic_core::sentence::{GESTURE, LANGUAGE, SentenceError};
@@ -192,6 +193,7 @@ fn a_voluntary_parameter_that_is_not_clear_is_asked_about() {
             vocabulary: &vocabulary,
             scene: &scene(),
             observations: &observations,
+            sensors: Tables::NONE,
         };
         deictic_core::fuse::fuse(situation, &Profile::PAPER, &mut Trace::new())
             .unwrap()
@@ -227,6 +229,7 @@ fn a_users_operator_mixes() {
         vocabulary: &vocabulary,
         scene: &scene,
         observations: &observations,
+        sensors: Tables::NONE,
     };
     let profile = Profile {
         penalised: false,
@@ -326,6 +329,7 @@ fn a_trace_that_was_used_before_says_the_same_as_a_new_one() {
             vocabulary: &vocabulary,
             scene: &scene,
             observations: &observations,
+            sensors: Tables::NONE,
         };
         deictic_core::fuse::fuse(situation, &Profile::PAPER, &mut used).unwrap();
         assert_eq!(used, decide_in(&scene, &[said], &Profile::PAPER).1);

@@ -16,6 +16,7 @@ use deictic_core::gesture::stroke::Template;
 use deictic_core::gesture::stroke_table::SCALE;
 use deictic_core::gesture::wire::{Sample, encode};
 use deictic_core::intent::{Intent, Parameter};
+use deictic_core::joint::sensors::SensorError;
 use deictic_core::profile::{Profile, ProfileError, Threshold};
 use deictic_core::protocol::hand::*;
 use deictic_core::protocol::link::{Counters, Link, Opening};
@@ -168,6 +169,15 @@ fn hand_to_unit() -> Vec<(&'static str, ToUnit)> {
                 proof: [9, 8, 7, 6, 5, 4, 3, 2],
             }),
         ),
+        (
+            "sensor",
+            ToUnit::Sensor(SensorRow {
+                modality: LANGUAGE,
+                category: Category::OBJECT,
+                meant: 1,
+                likelihoods: [26, 255, 128].into_iter().collect(),
+            }),
+        ),
     ]
 }
 
@@ -283,6 +293,13 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
         ("loaded-meanings", Loaded::Meanings),
         ("loaded-hand", Loaded::Hand),
         ("loaded-templates", Loaded::Templates(64)),
+        (
+            "loaded-sensor",
+            Loaded::Sensor {
+                modality: LANGUAGE,
+                category: Category::OBJECT,
+            },
+        ),
     ] {
         samples.push((name, ToHost::Loaded(what)));
     }
@@ -329,6 +346,10 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
         ("fault-no-question", Fault::NoQuestion { decision: 6 }),
         ("fault-host-lost", Fault::HostLost),
         ("fault-not-proven", Fault::NotProven),
+        (
+            "fault-sensor",
+            Fault::Sensor(SensorError::TooLarge { capacity: 512 }),
+        ),
         (
             "fault-meaning",
             Fault::Hand(HandFault::Meaning(MappingError::Reserved(Gesture::Shape(

@@ -6,8 +6,8 @@ use common::*;
 use deictic_core::board::{Observations, Scene, Sentence, Trace, Vocabulary, Word};
 use deictic_core::category::Category;
 use deictic_core::decide::{Decision, Outcome, Reason};
-use deictic_core::fuse::Situation;
-use deictic_core::joint::{self, Tables};
+use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Tables;
 use deictic_core::profile::{Model, Profile, ProfileError, Threshold};
 use proptest::prelude::*;
 
@@ -33,8 +33,9 @@ fn decide_joint(
         vocabulary,
         scene,
         observations: &observations,
+        sensors,
     };
-    let decision = joint::fuse(situation, sensors, &JOINT, &mut trace).unwrap();
+    let decision = fuse(situation, &JOINT, &mut trace).unwrap();
     (decision, trace)
 }
 
@@ -272,8 +273,9 @@ fn a_trace_that_was_used_before_changes_nothing() {
             vocabulary: &vocabulary,
             scene: &scene,
             observations: &observations,
+            sensors: Tables::NONE,
         };
-        let decision = joint::fuse(situation, Tables::NONE, &JOINT, trace);
+        let decision = fuse(situation, &JOINT, trace);
         (
             decision,
             trace.belief,

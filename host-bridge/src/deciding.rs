@@ -1,13 +1,15 @@
 //! Decisions made here, by the code that a unit runs.
 
 use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Tables;
 use deictic_core::large::{Decision, Intent, Observations, Scene, Sentence, Trace};
 use deictic_core::profile::{Model, Profile};
 
 use crate::explain::{self, Advice};
 use crate::vocabulary::Lexicon;
 
-/// Decides on at most one sentence per modality, the later among several, and leaves in `trace` why.
+/// Decides on at most one sentence per modality, the later among several, and leaves in `trace` why;
+/// with `sensors` where these are known.
 ///
 /// # Errors
 /// [`Advice`] when a sentence does not fit the vocabulary, or the profile cannot be.
@@ -16,6 +18,7 @@ pub fn decide<'s>(
     scene: &Scene,
     lexicon: &Lexicon,
     profile: &Profile,
+    sensors: Tables<'_>,
     trace: &mut Trace,
 ) -> Result<Decision, Advice> {
     let mut observations = Observations::new();
@@ -28,6 +31,7 @@ pub fn decide<'s>(
         vocabulary: lexicon.vocabulary(),
         scene,
         observations: &observations,
+        sensors,
     };
     fuse(situation, profile, trace).map_err(|e| explain::profile_error(&e))
 }
@@ -46,6 +50,7 @@ pub fn heard<'s>(
         ..*profile
     };
     let mut trace = Box::new(Trace::new());
-    let decision = decide(sentences, &Scene::new(1), lexicon, &plain, &mut trace).ok()?;
+    let none = Tables::NONE;
+    let decision = decide(sentences, &Scene::new(1), lexicon, &plain, none, &mut trace).ok()?;
     decision.best
 }

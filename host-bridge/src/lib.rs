@@ -16,6 +16,7 @@ pub mod robot;
 pub mod scene;
 pub mod script;
 pub mod sensor;
+pub mod sensor_model;
 pub mod session;
 pub mod setups;
 pub mod showing;

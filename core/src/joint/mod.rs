@@ -60,7 +60,6 @@ pub type Levels = [f32; LEVELS];
 #[inline(never)]
 pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
-    sensors: Tables<'_>,
     profile: &Profile,
     trace: &mut Trace<C, N>,
 ) -> Result<Decision<C>, ProfileError> {
@@ -69,6 +68,7 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
         vocabulary,
         scene,
         observations,
+        sensors,
     } = situation;
     trace.restart(vocabulary.options());
     trace.belief = belief::Belief::NONE;

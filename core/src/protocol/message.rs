@@ -11,6 +11,7 @@ use super::link::{Counters, Opening};
 use super::seal::TAG;
 use crate::category::Category;
 use crate::decide::Decision;
+use crate::joint::sensors::SensorError;
 use crate::profile::{Profile, ProfileError};
 use crate::scene::{Entity, SceneError};
 use crate::sentence::{SentenceError, Word};
@@ -56,6 +57,8 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     AskHand,
     /// Shows that the host has the key.
     Prove(Proof),
+    /// One row of a sensor's table.
+    Sensor(SensorRow<N>),
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
@@ -235,6 +238,20 @@ pub struct SentencePart<const C: usize, const N: usize> {
     pub words: Vec<Word<C, N>, WORDS_PART>,
 }
 
+/// One row of a sensor's table: what a modality reports when an option is meant. Rows come in the
+/// order of the options, one table after the other.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SensorRow<const N: usize> {
+    /// Which modality.
+    pub modality: u8,
+    /// Of which category.
+    pub category: Category,
+    /// The option that is meant.
+    pub meant: u8,
+    /// What is reported of every option, in 255ths.
+    pub likelihoods: Vec<u8, N>,
+}
+
 /// How the robot fares with a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RobotStatus {
@@ -274,6 +291,13 @@ pub enum Loaded {
     Hand,
     /// So many templates.
     Templates(u8),
+    /// A table of a sensor.
+    Sensor {
+        /// Of which modality.
+        modality: u8,
+        /// For which category.
+        category: Category,
+    },
 }
 
 /// A decision and what it was made of.
@@ -380,6 +404,8 @@ pub enum Fault {
     Hand(HandFault),
     /// What was to show that the host has the key does not; or the unit has no key.
     NotProven,
+    /// A row of a sensor's table cannot be.
+    Sensor(SensorError),
 }
 
 /// What a unit has counted since it started.

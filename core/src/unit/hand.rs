@@ -141,7 +141,8 @@ impl<
     const W: usize,
     const FRAME: usize,
     const OUT: usize,
-> Unit<N, C, F, E, W, FRAME, OUT>
+    const S: usize,
+> Unit<N, C, F, E, W, FRAME, OUT, S>
 {
     /// Takes bytes from the hand sensor's serial line, in pieces of any size.
     pub fn sense(&mut self, now: Micros, bytes: &[u8]) {

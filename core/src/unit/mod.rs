@@ -2,7 +2,7 @@
 //! fuzzers run this very code.
 //!
 //! A conversation opens with the host's Hello, which empties the unit: whatever the host relied on
-//! before is loaded anew. Then come vocabulary, scene and configuration ([`loading`]), sentences and
+//! before is loaded anew. Then come vocabulary, scene and configuration ([`loading`], [`sensing`]), sentences and
 //! answers ([`pairing`]), samples of a hand sensor ([`hand`]), and heartbeats both ways. Everything unexpected is answered by a
 //! [`Fault`] and changes nothing. A unit that has restarted answers the first thing it hears with its
 //! own Hello, by which the host knows to open the conversation again.
@@ -10,6 +10,7 @@
 pub mod hand;
 pub mod loading;
 pub mod pairing;
+pub mod sensing;
 pub mod taught;
 mod trust;
 mod view;
@@ -18,7 +19,8 @@ pub use crate::protocol::message::Statistics;
 
 use crate::protocol::link::{Counters, Link, Received};
 use crate::protocol::message::{
-    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, RobotState, ToHost, ToUnit,
+    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, RobotState, SensorRow, ToHost,
+    ToUnit,
 };
 use crate::protocol::stuffing::Outbox;
 use crate::protocol::{SCHEMA, VERSION};
@@ -27,6 +29,7 @@ use crate::trace::Trace;
 use hand::Hand;
 use loading::Loading;
 use pairing::Pairing;
+use sensing::Sensing;
 
 /// How often the unit shows that it lives.
 pub const HEARTBEAT: Micros = Micros::from_millis(500);
@@ -35,7 +38,8 @@ pub const HEARTBEAT: Micros = Micros::from_millis(500);
 pub const HOST_LOST: Micros = Micros::from_millis(2_000);
 
 /// A gesture unit. `N` options, `C` categories, `F` features, `E` things, `W` words, frames of
-/// `FRAME` bytes before stuffing, `OUT` bytes waiting to be written.
+/// `FRAME` bytes before stuffing, `OUT` bytes waiting to be written, `S` bytes
+/// of sensors' tables.
 #[derive(Debug)]
 pub struct Unit<
     const N: usize,
@@ -45,6 +49,7 @@ pub struct Unit<
     const W: usize,
     const FRAME: usize,
     const OUT: usize,
+    const S: usize,
 > {
     boot: u32,
     link: Link<FRAME>,
@@ -54,6 +59,7 @@ pub struct Unit<
     heard: Micros,
     beat: Micros,
     loading: Loading<N, C, F, E>,
+    sensing: Sensing<S>,
     pairing: Pairing<N, C, W>,
     hand: Hand<N, C, W>,
     trace: Trace<C, N>,
@@ -73,7 +79,8 @@ impl<
     const W: usize,
     const FRAME: usize,
     const OUT: usize,
-> Unit<N, C, F, E, W, FRAME, OUT>
+    const S: usize,
+> Unit<N, C, F, E, W, FRAME, OUT, S>
 {
     /// A unit that has just started; `boot` tells this start from others.
     #[must_use]
@@ -86,6 +93,7 @@ impl<
             heard: Micros(0),
             beat: Micros(0),
             loading: Loading::new(),
+            sensing: Sensing::new(),
             pairing: Pairing::new(),
             hand: Hand::new(),
             trace: Trace::new(),
@@ -114,6 +122,7 @@ impl<
         self.heard = Micros(0);
         self.beat = Micros(0);
         self.loading.clear();
+        self.sensing.clear();
         self.pairing.restart();
         self.hand.restart();
         self.trace.clear();
@@ -242,6 +251,7 @@ impl<
             ToUnit::Hello(_) | ToUnit::Heartbeat(_) | ToUnit::Prove(_) => Ok(()),
             ToUnit::Vocabulary(part) => self.loading.take_vocabulary(part).map(|done| {
                 self.pairing.clear();
+                self.sensing.clear();
                 self.hand.unlearn_meanings();
                 self.loaded(done);
             }),
@@ -262,6 +272,7 @@ impl<
             }
             ToUnit::Meanings(meanings) => self.take_meanings(meanings),
             ToUnit::Hand(settings) => self.take_hand_settings(settings),
+            ToUnit::Sensor(row) => self.take_sensor(row),
             ToUnit::Templates(part) => self.hand.take_templates(part).map(|done| self.loaded(done)),
             ToUnit::AskHand => {
                 self.tell_hand();
@@ -277,6 +288,7 @@ impl<
     fn greet(&mut self, now: Micros, host: &Hello) {
         self.outbox.abandon();
         self.loading.clear();
+        self.sensing.clear();
         self.pairing.clear();
         self.hand.clear();
         self.configuration = Configuration::DEFAULT;
@@ -311,6 +323,13 @@ impl<
             .map_err(Fault::Configuration)?;
         self.configuration = *configuration;
         self.loaded(Some(Loaded::Configuration));
+        Ok(())
+    }
+
+    fn take_sensor(&mut self, row: &SensorRow<N>) -> Result<(), Fault> {
+        let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
+        let done = self.sensing.take(row, vocabulary)?;
+        self.loaded(done);
         Ok(())
     }
 

@@ -139,7 +139,8 @@ impl<
     const W: usize,
     const FRAME: usize,
     const OUT: usize,
-> Unit<N, C, F, E, W, FRAME, OUT>
+    const S: usize,
+> Unit<N, C, F, E, W, FRAME, OUT, S>
 {
     /// Looks at a sentence that has just been completed, and decides when it is time. Called when
     /// the message that completed it is out of the way, so that the stack holds one of the two.
@@ -308,6 +309,7 @@ impl<
             vocabulary,
             scene,
             observations: &self.pairing.observations,
+            sensors: self.sensing.tables(),
         };
         let decided = fuse(situation, &self.configuration.profile, &mut self.trace);
         self.pairing.due = Micros::NEVER;

@@ -13,7 +13,8 @@ impl<
     const W: usize,
     const FRAME: usize,
     const OUT: usize,
-> Unit<N, C, F, E, W, FRAME, OUT>
+    const S: usize,
+> Unit<N, C, F, E, W, FRAME, OUT, S>
 {
     /// From now on only a host that has the key is listened to. It is told after the unit's Hello what to prove it with.
     #[inline(never)]

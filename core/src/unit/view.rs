@@ -15,7 +15,8 @@ impl<
     const W: usize,
     const FRAME: usize,
     const OUT: usize,
-> Unit<N, C, F, E, W, FRAME, OUT>
+    const S: usize,
+> Unit<N, C, F, E, W, FRAME, OUT, S>
 {
     /// Tells the host what the unit sees, and what it has counted.
     #[inline(never)]

@@ -5,6 +5,7 @@ use deictic_core::board::{Entity, Observations, Scene, Sentence, Trace, Vocabula
 use deictic_core::category::{BitSet, Category};
 use deictic_core::decide::{Decision, Outcome};
 use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Tables;
 use deictic_core::profile::{Profile, ProfileError};
 use deictic_core::vocabulary::{Action, Requirement, Signature};
 
@@ -174,6 +175,7 @@ pub fn decide_again(
         vocabulary: &vocabulary,
         scene,
         observations: &observations,
+        sensors: Tables::NONE,
     };
     fuse(situation, profile, trace)
 }

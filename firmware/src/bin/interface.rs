@@ -112,12 +112,11 @@ macro_rules! decision {
                 vocabulary: &vocabulary,
                 scene: &scene,
                 observations: &observed,
+                sensors: any(Tables::NONE),
             };
             black_box(fuse(situation, &profile, &mut trace).is_ok());
             black_box(decide(&vocabulary, &scene, &profile, &trace).best.is_some());
-            black_box(
-                joint::fuse(situation, Tables::NONE, &any(Profile::JOINT), &mut trace).is_ok(),
-            );
+            black_box(joint::fuse(situation, &any(Profile::JOINT), &mut trace).is_ok());
             black_box(profile.weight(any(9)));
         }
         for word in trace.categories() {

@@ -11,6 +11,7 @@ use crate::explain;
 use crate::language::{LanguageError, Listener, Spoken, text_of};
 use crate::robot::Event;
 use crate::sensor::Sensors;
+use crate::sensor_model::SensorModel;
 use crate::session::{Happening, Session};
 use crate::showing::showing;
 use crate::understanding::{self, Understood, mentions_stop};
@@ -66,7 +67,9 @@ pub struct Conversation<'a> {
     last: Ending,
     quits: bool,
     /// What observes what is said and shown; without any it is observed as it was typed.
-    pub sensors: Option<Sensors<'a>>,
+    sensors: Option<Sensors<'a>>,
+    /// What the unit was told of those who observe.
+    told: SensorModel,
 }
 
 impl<'a> Conversation<'a> {
@@ -79,7 +82,28 @@ impl<'a> Conversation<'a> {
             last: Ending::Done,
             quits: false,
             sensors: None,
+            told: SensorModel::default(),
         }
+    }
+
+    /// From now on these observe what is said and shown; without any it is observed as it was typed.
+    /// Tells the unit what to expect of them.
+    pub fn observe_by(&mut self, session: &mut Session<'_>, sensors: Option<Sensors<'a>>) {
+        let model = match sensors {
+            Some(_) => SensorModel::made_up(session.lexicon()),
+            None => SensorModel::of_listener(self.listener, session.lexicon()),
+        };
+        if model != self.told {
+            self.told = model.clone();
+            // A unit that cannot be told is lost, which the session tells.
+            let _ = session.set_sensors(model);
+        }
+        self.sensors = sensors;
+    }
+
+    /// What is said next is observed as it was typed; what was said before stays as it was observed.
+    pub fn answer_clearly(&mut self) {
+        self.sensors = None;
     }
 
     /// Takes a typed line. One that says stop is carried out at once, others when what was typed

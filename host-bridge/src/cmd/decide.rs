@@ -2,6 +2,7 @@
 
 use clap::Args;
 use deictic_core::decide::Outcome;
+use deictic_core::joint::Tables;
 use deictic_core::large::{Decision, Intent, Sentence, Trace};
 use miette::Result;
 use serde::Serialize;
@@ -12,11 +13,13 @@ use super::{advice, paint};
 use crate::deciding::{decide, heard};
 use crate::explain::reasons::Reasons;
 use crate::explain::{self, Advice};
+use crate::language::Listener;
 use crate::report::{self, DecisionReport};
 use crate::scene::Tabletop;
 use crate::sensor::{Noise, Sensors};
+use crate::sensor_model::SensorModel;
 use crate::showing::showing;
-use crate::understanding::{Understood, is_stop, understand};
+use crate::understanding::{self, Understood, is_stop};
 use crate::vocabulary::Lexicon;
 
 /// Decide what a sentence and a gesture mean, without a unit and without a robot.
@@ -72,13 +75,14 @@ impl Decide {
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<()> {
         let (lexicon, table) = self.files.read()?;
+        let listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
         let shown = match &self.show {
             Some(text) => Some(showing(text, &lexicon).map_err(|e| advice(&e, e.remedy()))?),
             None => None,
         };
         let said = match &self.say {
             None => vec![None],
-            Some(text) => match understand(text, &lexicon).map_err(|e| advice(&e, e.remedy()))? {
+            Some(text) => match Self::understand(text, &listener)? {
                 Understood::Commands(sentences) => sentences.into_iter().map(Some).collect(),
                 Understood::Nothing(why) => {
                     self.print_nothing(&why);
@@ -86,14 +90,27 @@ impl Decide {
                 }
             },
         };
+        let model = match self.noise {
+            Some(_) => SensorModel::made_up(&lexicon),
+            None => SensorModel::of_listener(&listener, &lexicon),
+        };
+        let known = model
+            .here()
+            .map_err(|e| refused(explain::sensor_error(&e)))?;
         let mut sensors = self.noise.map(|n| Sensors::new(&lexicon, n, self.seed));
         // A gesture belongs to the first command; what is said after it stands alone.
         let mut shown = shown;
         for said in said {
             let sentences = [shown.take(), said].into_iter().flatten();
-            self.decide(&lexicon, &table, sentences, sensors.as_mut())?;
+            self.decide(&lexicon, &table, sentences, sensors.as_mut(), known.view())?;
         }
         Ok(())
+    }
+
+    fn understand(text: &str, listener: &Listener<'_>) -> Result<Understood> {
+        let utterance = listener.understand(text);
+        let utterance = utterance.map_err(|e| advice(&e, e.remedy()))?;
+        Ok(understanding::of(text, utterance))
     }
 
     fn decide(
@@ -102,6 +119,7 @@ impl Decide {
         table: &Tabletop,
         sentences: impl Iterator<Item = Sentence>,
         mut sensors: Option<&mut Sensors<'_>>,
+        known: Tables<'_>,
     ) -> Result<()> {
         let mut observed = Vec::new();
         for sentence in sentences {
@@ -118,7 +136,9 @@ impl Decide {
         let decision = match stop.and(lexicon.vocabulary().stop()) {
             // As the unit does, whatever else was said or shown.
             Some(action) => stop_now(action),
-            None => decide(&observed, scene, lexicon, &profile, &mut trace).map_err(refused)?,
+            None => {
+                decide(&observed, scene, lexicon, &profile, known, &mut trace).map_err(refused)?
+            }
         };
         let heard = heard(&observed, lexicon, &profile);
         let why = self.explain.then(|| Reasons::of_trace(&trace, lexicon));

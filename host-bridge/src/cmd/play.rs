@@ -115,9 +115,8 @@ impl Play {
             printer.object(&json!({
                 "event": "turn", "number": number, "of": of, "kind": turn.kind, "note": turn.note,
             }));
-            conversation.sensors = turn
-                .noise
-                .map(|noise| Sensors::new(&lexicon, noise, turn.seed));
+            let made_up = turn.noise.map(|n| Sensors::new(&lexicon, n, turn.seed));
+            conversation.observe_by(&mut session, made_up);
             rows.push(play(
                 turn,
                 &mut session,
@@ -205,7 +204,7 @@ fn play(
         match answer.take() {
             Some(answer) if asked => {
                 // An answer is clear: nobody gives one in a noisy room without being heard.
-                conversation.sensors = None;
+                conversation.answer_clearly();
                 conversation.take(session, Some(answer), None);
             }
             _ => {

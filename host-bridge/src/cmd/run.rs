@@ -141,7 +141,8 @@ impl Run {
         printer.greet(&self.board, &session);
         let mut scenes = Scenes::open(&self.files, self.watch, self.scene_port, printer)?;
         let mut conversation = Conversation::new(&listener, printer);
-        conversation.sensors = self.noise.map(|n| Sensors::new(&lexicon, n, self.seed));
+        let made_up = self.noise.map(|n| Sensors::new(&lexicon, n, self.seed));
+        conversation.observe_by(&mut session, made_up);
         let mut lines = None;
         if self.say.is_some() || self.show.is_some() {
             let (say, show) = (self.say.as_deref(), self.show.as_deref());

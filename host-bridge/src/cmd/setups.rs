@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Tables;
 use deictic_core::large::{Decision, Observations, Sentence, Trace};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
@@ -14,10 +15,11 @@ use serde::Serialize;
 
 use super::profile::Choice;
 use super::{advice, paint};
-use crate::explain;
+use crate::explain::{self, Advice};
 use crate::link::Address;
 use crate::scene::Tabletop;
 use crate::sensor::{Noise, Sensors};
+use crate::sensor_model::SensorModel;
 use crate::setups::{self, Kind, Tally};
 use crate::unit::{Event, GestureUnit};
 use crate::vocabulary::Lexicon;
@@ -98,6 +100,14 @@ impl Setups {
             )?),
             None => None,
         };
+        let model = SensorModel::made_up(&lexicon);
+        let known = model.here().map_err(|e| {
+            let Advice { what, remedy } = explain::sensor_error(&e);
+            advice(what, remedy)
+        })?;
+        if let Some(unit) = &mut unit {
+            unit.set_sensors(model)?;
+        }
         let mut sensors = Sensors::new(&lexicon, self.noise, self.seed);
         let mut tallies = [Tally::default(); Kind::ALL.len()];
         let mut differences = 0;
@@ -122,7 +132,8 @@ impl Setups {
                             "make the vocabulary smaller",
                         )
                     })?;
-                    let here = decide_here(&lexicon, &table, &sentences, &configuration)?;
+                    let here =
+                        decide_here(&lexicon, &table, &sentences, &configuration, known.view())?;
                     let decision = match &mut unit {
                         Some(unit) => decide_there(unit, sentences)?,
                         None => here.clone(),
@@ -234,8 +245,9 @@ fn decide_here(
     table: &Tabletop,
     sentences: &[Sentence],
     configuration: &Configuration,
+    sensors: Tables<'_>,
 ) -> Result<Decision> {
-    let refused = |what: explain::Advice| advice(what.what, what.remedy);
+    let refused = |what: Advice| advice(what.what, what.remedy);
     let mut observations = Observations::new();
     for sentence in sentences {
         let inserted = observations.insert(sentence.clone(), lexicon.vocabulary());
@@ -245,6 +257,7 @@ fn decide_here(
         vocabulary: lexicon.vocabulary(),
         scene: table.scene(),
         observations: &observations,
+        sensors,
     };
     fuse(
         situation,
@@ -270,18 +283,18 @@ fn decide_there(unit: &mut GestureUnit, sentences: [Sentence; 2]) -> Result<Deci
                     trust: Err(distrust),
                     ..
                 } => {
-                    let explain::Advice { what, remedy } = explain::distrust(&distrust);
+                    let Advice { what, remedy } = explain::distrust(&distrust);
                     return Err(advice(
                         format!("a decision cannot be trusted: {what}"),
                         remedy,
                     ));
                 }
                 Event::Fault(fault) => {
-                    let explain::Advice { what, remedy } = explain::fault(&fault);
+                    let Advice { what, remedy } = explain::fault(&fault);
                     return Err(advice(what, remedy));
                 }
                 Event::Lost(loss) => {
-                    let explain::Advice { what, remedy } = explain::loss(&loss);
+                    let Advice { what, remedy } = explain::loss(&loss);
                     return Err(advice(what, remedy));
                 }
                 _ => {}

@@ -2,6 +2,7 @@
 
 use deictic_core::gesture::mapping::MappingError;
 use deictic_core::gesture::pointing::MountError;
+use deictic_core::joint::sensors::SensorError;
 use deictic_core::protocol::hand::HandFault;
 use deictic_core::protocol::message::Fault;
 
@@ -54,6 +55,29 @@ pub fn fault(fault: &Fault) -> Advice {
         Fault::NotProven => Advice::new(
             "the unit was not shown the key that it was flashed with",
             "give its own key: --key FILE",
+        ),
+        Fault::Sensor(error) => sensor_error(error),
+    }
+}
+
+/// What is wrong with a sensor's table.
+#[must_use]
+pub fn sensor_error(error: &SensorError) -> Advice {
+    match error {
+        SensorError::UnknownModality { capacity } => Advice::new(
+            "a sensor's table is of a modality that the unit does not have",
+            format!("number modalities from 0 to {}", capacity.saturating_sub(1)),
+        ),
+        SensorError::TooLarge { capacity } => Advice::new(
+            format!(
+                "the sensors' tables take more than the {capacity} bytes that the unit has for them"
+            ),
+            "use fewer actions, objects and storages, or a unit built with larger capacities; without its \
+             table a sensor is taken for a plain one",
+        ),
+        SensorError::NotSquare { options } => Advice::new(
+            format!("a row of a sensor's table is not one over {options} options"),
+            "nothing: the bridge loads the unit anew",
         ),
     }
 }

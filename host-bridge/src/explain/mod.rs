@@ -8,7 +8,7 @@ pub mod reasons;
 mod shown;
 
 pub use errors::{profile_error, scene_error, sentence_error, vocabulary_error};
-pub use faults::{distrust, fault, loss};
+pub use faults::{distrust, fault, loss, sensor_error};
 pub use question::{because, intent, question};
 pub use shown::sentence;
 

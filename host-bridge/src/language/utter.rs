@@ -101,6 +101,21 @@ impl Utterer<'_> {
         })
     }
 
+    /// What every option of a category gets, on the mean, when a name of `option` is heard.
+    pub fn reported(&self, category: Category, option: u8) -> Vec<f32> {
+        let options = self.lexicon.vocabulary().options_of(category);
+        let mut sum = vec![0.0; options];
+        let mut names = 0.0_f32;
+        for name in self.guesser.names_of(category, option) {
+            names += 1.0;
+            let alike = self.guesser.likenesses(name, category, options);
+            for (i, (sum, alike)) in sum.iter_mut().zip(alike).enumerate() {
+                *sum += self.likelihood(alike, i == usize::from(option));
+            }
+        }
+        sum.iter().map(|sum| sum / names.max(1.0)).collect()
+    }
+
     fn likelihood(&self, alike: f64, named: bool) -> f32 {
         match self.uncertainty {
             Uncertainty::OneHot { others } => {

@@ -28,6 +28,7 @@ use crate::explain::reasons::Reasons;
 use crate::hand::meaning::HandSetup;
 use crate::robot::{CommandId, Posture, Robot};
 use crate::scene::Tabletop;
+use crate::sensor_model::SensorModel;
 use crate::understanding::is_stop;
 use crate::unit::{GestureUnit, Opener, UnitError};
 use crate::vocabulary::Lexicon;
@@ -242,6 +243,14 @@ impl<'a> Session<'a> {
     /// [`UnitError`] when the unit is not there; it is told when it comes back.
     pub fn set_hand(&mut self, setup: HandSetup) -> Result<(), UnitError> {
         self.unit.set_hand(setup)
+    }
+
+    /// As [`GestureUnit::set_sensors`].
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit is told when it comes back.
+    pub fn set_sensors(&mut self, sensors: SensorModel) -> Result<(), UnitError> {
+        self.unit.set_sensors(sensors)
     }
 
     /// Tells the unit what a hand sensor at this machine saw.

@@ -17,6 +17,7 @@ use super::{PATIENCE, UnitError};
 use crate::clock;
 use crate::hand::meaning::HandSetup;
 use crate::link::Wire;
+use crate::sensor_model::SensorModel;
 
 /// How often an unanswered Hello is said again: a board may be in the middle of starting.
 const AGAIN: Duration = Duration::from_millis(500);
@@ -223,6 +224,12 @@ impl Conversation {
             self.say(&ToUnit::Templates(part))?;
         }
         Ok(())
+    }
+
+    /// Says what sensors report.
+    pub fn say_sensors(&mut self, sensors: &SensorModel) -> Result<(), UnitError> {
+        let mut rows = sensors.rows().iter().cloned();
+        rows.try_for_each(|row| self.say(&ToUnit::Sensor(row)))
     }
 
     /// Says a sentence in as many parts as it needs; `answers` is the decision whose question it

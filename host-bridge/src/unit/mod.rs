@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use deictic_core::gesture::wire::{Sample, encode};
 use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
+use deictic_core::profile::Model;
 use deictic_core::protocol::hand::SampleBytes;
 use deictic_core::protocol::message::{
     Configuration, Fault, Hello, Loaded, RobotStatus, SentencePart,
@@ -20,6 +21,7 @@ use deictic_core::sentence::GESTURE;
 use crate::clock;
 use crate::hand::meaning::HandSetup;
 use crate::link::{Address, Wire, WireError, open};
+use crate::sensor_model::SensorModel;
 use conversation::Conversation;
 pub use error::UnitError;
 pub use event::{Event, Loss};
@@ -55,6 +57,7 @@ pub struct GestureUnit {
     scene: Scene,
     configuration: Configuration,
     hand: Option<HandSetup>,
+    sensors: Option<SensorModel>,
     /// What a hand said that is arriving in parts.
     shown: Sentence,
     trust: Trust,
@@ -100,6 +103,7 @@ impl GestureUnit {
             scene: scene.clone(),
             configuration,
             hand: None,
+            sensors: None,
             shown: Sentence::new(GESTURE),
             trust: Trust::new(vocabulary.fingerprint(), scene.version()),
             hello,
@@ -162,6 +166,19 @@ impl GestureUnit {
     pub fn set_hand(&mut self, setup: HandSetup) -> Result<(), UnitError> {
         self.hand = Some(setup.clone());
         self.with(|c| c.say_hand(&setup))
+    }
+
+    /// Tells the unit what the sensors in use report, now and whenever it comes back. Only the joint
+    /// model goes by it.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit is told when it comes back.
+    pub fn set_sensors(&mut self, sensors: SensorModel) -> Result<(), UnitError> {
+        if self.configuration.profile.model != Model::Joint {
+            return Ok(());
+        }
+        self.sensors = Some(sensors.clone());
+        self.with(|c| c.say_sensors(&sensors))
     }
 
     /// Tells the unit what a hand sensor saw.
@@ -320,6 +337,9 @@ impl GestureUnit {
                         // A wire that breaks right now is found broken by the next poll.
                         if let Some(setup) = &self.hand {
                             let _ = conversation.say_hand(setup);
+                        }
+                        if let Some(sensors) = &self.sensors {
+                            let _ = conversation.say_sensors(sensors);
                         }
                         self.conversation = Some(conversation);
                         self.loaded = true;

@@ -27,7 +27,7 @@ use core::ops::Range;
 
 use deictic_core::board;
 use deictic_core::fuse::{Situation, fuse};
-use deictic_core::joint::{self, Sensors};
+use deictic_core::joint::Sensors;
 use deictic_core::profile::{Model, Profile, ProfileError};
 
 use digest::Digest;
@@ -136,12 +136,9 @@ impl Bench {
             vocabulary: &self.vocabulary,
             scene: &self.scene,
             observations: &self.observations,
+            sensors: self.sensors.view(),
         };
-        if profile.model == Model::Joint {
-            joint::fuse(situation, self.sensors.view(), profile, &mut self.trace)
-        } else {
-            fuse(situation, profile, &mut self.trace)
-        }
+        fuse(situation, profile, &mut self.trace)
     }
 
     /// What can be said on the bench.

@@ -2,10 +2,10 @@
 
 use deictic_core::board;
 use deictic_core::category::Category;
-use deictic_core::fuse::fuse;
+use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Sensors;
 use deictic_core::joint::sensors::quantise;
-use deictic_core::joint::{self, Sensors};
-use deictic_core::profile::{Model, Profile, ProfileError};
+use deictic_core::profile::{Profile, ProfileError};
 
 use crate::catalogue::Catalogue;
 use crate::order::Order;
@@ -64,11 +64,10 @@ impl Sensing {
         profile: &Profile,
         trace: &mut board::Trace,
     ) -> Result<board::Decision, ProfileError> {
-        let situation = sample.with(vocabulary);
-        if profile.model == Model::Joint {
-            joint::fuse(situation, self.0.view(), profile, trace)
-        } else {
-            fuse(situation, profile, trace)
-        }
+        let situation = Situation {
+            sensors: self.0.view(),
+            ..sample.with(vocabulary)
+        };
+        fuse(situation, profile, trace)
     }
 }

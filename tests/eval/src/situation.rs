@@ -3,6 +3,7 @@
 use deictic_core::board;
 use deictic_core::category::Category;
 use deictic_core::fuse::Situation;
+use deictic_core::joint::Tables;
 
 use crate::catalogue::Catalogue;
 use crate::order::Order;
@@ -91,6 +92,7 @@ impl Prepared {
             vocabulary,
             scene: &self.scene,
             observations: &self.observations,
+            sensors: Tables::NONE,
         }
     }
 }

@@ -5,6 +5,7 @@ use deictic_core::board::{Decision, Observations, Scene, Trace, Vocabulary};
 use deictic_core::decide::Outcome;
 use deictic_core::feasibility::{alignment, alpha, signature_mismatch};
 use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Tables;
 use deictic_core::judgement::judge;
 use deictic_core::profile::{Model, Profile, Threshold};
 use deictic_core::sentence::MODALITIES;
@@ -62,6 +63,7 @@ fn decide(
         vocabulary,
         scene,
         observations,
+        sensors: Tables::NONE,
     };
     fuse(situation, profile, trace).expect("the profile is sound")
 }

@@ -5,6 +5,7 @@ use deictic::vocabulary::Lexicon;
 use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
 use deictic_core::fuse::{Situation, fuse};
+use deictic_core::joint::Tables;
 use deictic_core::large::{Entity, Intent, Observations, Scene, Sentence, Trace, Word};
 use deictic_core::profile::Profile;
 use deictic_core::sentence::GESTURE;
@@ -58,6 +59,7 @@ impl Trial<'_> {
             vocabulary,
             scene: &scene,
             observations: &observations,
+            sensors: Tables::NONE,
         };
         let decided = fuse(situation, &self.profile, &mut Trace::default());
         match decided.map(|d| d.outcome) {
