@@ -25,7 +25,7 @@ use deictic_core::protocol::seal::TAG;
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
 use deictic_core::scene::SceneError;
-use deictic_core::sentence::{LANGUAGE, SentenceError};
+use deictic_core::sentence::{GESTURE, LANGUAGE, SentenceError};
 use deictic_core::time::Micros;
 use deictic_core::vocabulary::VocabularyError;
 use serde::{Serialize, de::DeserializeOwned};
@@ -171,11 +171,18 @@ fn hand_to_unit() -> Vec<(&'static str, ToUnit)> {
         ),
         (
             "sensor",
-            ToUnit::Sensor(SensorRow {
+            ToUnit::Sensor(SensorPart::Row(SensorRow {
                 modality: LANGUAGE,
                 category: Category::OBJECT,
                 meant: 1,
                 likelihoods: [26, 255, 128].into_iter().collect(),
+            })),
+        ),
+        (
+            "sensor-likelihoods",
+            ToUnit::Sensor(SensorPart::Likelihoods {
+                modality: GESTURE,
+                category: Category::ACTION,
             }),
         ),
     ]

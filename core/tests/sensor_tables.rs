@@ -22,12 +22,12 @@ const HEARD: [[u8; 4]; 4] = [
 ];
 
 fn row(meant: u8) -> ToUnit {
-    ToUnit::Sensor(SensorRow {
+    ToUnit::Sensor(SensorPart::Row(SensorRow {
         modality: LANGUAGE,
         category: Category::STORAGE,
         meant,
         likelihoods: HEARD[usize::from(meant)].into_iter().collect(),
-    })
+    }))
 }
 
 fn joint() -> Bench {
@@ -104,12 +104,12 @@ fn what_is_no_row_over_the_vocabulary_is_refused() {
     assert_eq!(faults(&bench.say(&row(0))), [Fault::NoVocabulary]);
     let mut bench = joint();
     let refused = |bench: &mut Bench, modality, category, n| {
-        let row = ToUnit::Sensor(SensorRow {
+        let row = ToUnit::Sensor(SensorPart::Row(SensorRow {
             modality,
             category,
             meant: 0,
             likelihoods: core::iter::repeat_n(9, n).collect(),
-        });
+        }));
         faults(&bench.say(&row))
     };
     let not_square = |options| [Fault::Sensor(SensorError::NotSquare { options })];
@@ -125,4 +125,50 @@ fn what_is_no_row_over_the_vocabulary_is_refused() {
         refused(&mut bench, 4, Category::STORAGE, 4),
         [Fault::Sensor(SensorError::UnknownModality { capacity: 4 })]
     );
+}
+
+/// What is told of the marginal of the storages when `said` has these likelihoods.
+fn storages(bench: &mut Bench, said: [f32; 4]) -> Vec<f32> {
+    let said = [
+        word(Category::ACTION, PUT),
+        word(Category::OBJECT, CAN),
+        Word::certain(Category::STORAGE, &said).unwrap(),
+    ];
+    let heard = bench.tell(&sentence(LANGUAGE, &said));
+    let of = |m: &ToHost| match m {
+        ToHost::Why(why) if why.category == Category::STORAGE => Some(why.merged.to_vec()),
+        _ => None,
+    };
+    heard.iter().find_map(of).unwrap()
+}
+
+#[test]
+fn likelihoods_are_taken_as_they_are() {
+    let mut bench = joint();
+    bench.say(&ToUnit::Configure(Configuration {
+        profile: Profile::JOINT,
+        expected: 1 << LANGUAGE,
+        explain: true,
+        ..Configuration::DEFAULT
+    }));
+    // Of the four only the drawer and the bowl are there.
+    let said = [0.25, 1.0, 0.0, 0.75];
+    let scored = storages(&mut bench, said);
+    let part = ToUnit::Sensor(SensorPart::Likelihoods {
+        modality: LANGUAGE,
+        category: Category::STORAGE,
+    });
+    assert!(loaded(&bench.say(&part)));
+    let taken = storages(&mut bench, said);
+    assert!((taken[3] - 0.75).abs() < 0.02, "{taken:?}");
+    assert!((scored[3] - 0.75).abs() > 0.05, "{scored:?}");
+    storages(&mut bench, [0.9, 0.8, 0.7, 0.1]);
+    assert_eq!(
+        storages(&mut bench, said),
+        taken,
+        "the trace was used before"
+    );
+    // What cannot be, however surely it was said, leaves the others a chance of 1 in 1000.
+    let sure = storages(&mut bench, [0.0, 0.0, 0.0, 1.0]);
+    assert!((0.0005..0.002).contains(&sure[0]), "{sure:?}");
 }

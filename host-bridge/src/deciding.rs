@@ -44,10 +44,15 @@ pub fn heard<'s>(
     lexicon: &Lexicon,
     profile: &Profile,
 ) -> Option<Intent> {
+    let usual = match profile.model {
+        // Its threshold is of no use to other models.
+        Model::Joint => Profile::PAPER,
+        _ => *profile,
+    };
     let plain = Profile {
         model: Model::M1,
         guarded: false,
-        ..*profile
+        ..usual
     };
     let mut trace = Box::new(Trace::new());
     let none = Tables::NONE;

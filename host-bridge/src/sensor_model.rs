@@ -5,66 +5,59 @@ use deictic_core::category::Category;
 use deictic_core::joint::Sensors;
 use deictic_core::joint::sensors::{SensorError, quantise};
 use deictic_core::large;
-use deictic_core::protocol::message::SensorRow;
+use deictic_core::protocol::message::{SensorPart, SensorRow};
 use deictic_core::sentence::{GESTURE, LANGUAGE};
+use deictic_core::unit::pairing::ANSWER;
 
-use crate::language::Listener;
 use crate::vocabulary::Lexicon;
 
-/// The tables of some sensors: square, rows of likelihoods in 255ths by the option that is meant.
+/// What some sensors report, as a unit is told.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SensorModel {
-    rows: Vec<SensorRow<{ large::OPTIONS }>>,
+    parts: Vec<SensorPart<{ large::OPTIONS }>>,
 }
 
 impl SensorModel {
     /// Of the made-up sensors ([`crate::sensor::Sensors`]): the vocabulary's similarity tables.
+    /// Answers are not made up.
     #[must_use]
     pub fn made_up(lexicon: &Lexicon) -> Self {
-        Self::of(lexicon, |modality, category, meant, options| {
-            lexicon.similarity().row(modality, category, meant, options)
-        })
-    }
-
-    /// Of what is typed or spoken, as the listener understands each name, and of a hand, as the unit
-    /// reads it: of a clear gesture nothing is left for other options.
-    #[must_use]
-    pub fn of_listener(listener: &Listener<'_>, lexicon: &Lexicon) -> Self {
-        Self::of(lexicon, |modality, category, meant, options| {
-            if modality == LANGUAGE {
-                return listener.reported(category, meant);
-            }
-            let mut row = vec![0.0; options];
-            if let Some(own) = row.get_mut(usize::from(meant)) {
-                *own = 1.0;
-            }
-            row
-        })
-    }
-
-    fn of(lexicon: &Lexicon, reported: impl Fn(u8, Category, u8, usize) -> Vec<f32>) -> Self {
-        let mut rows = Vec::new();
+        let mut parts = likelihoods(ANSWER, &WHOLE);
         for modality in [GESTURE, LANGUAGE] {
-            for category in [Category::ACTION, Category::OBJECT, Category::STORAGE] {
+            for category in WHOLE {
                 let options = lexicon.vocabulary().options_of(category);
                 for meant in (0_u8..).take(options) {
-                    let likelihoods = reported(modality, category, meant, options);
-                    rows.push(SensorRow {
+                    let row = lexicon.similarity().row(modality, category, meant, options);
+                    parts.push(SensorPart::Row(SensorRow {
                         modality,
                         category,
                         meant,
-                        likelihoods: likelihoods.into_iter().map(quantise).collect(),
-                    });
+                        likelihoods: row.into_iter().map(quantise).collect(),
+                    }));
                 }
             }
         }
-        Self { rows }
+        Self { parts }
     }
 
-    /// The rows, in the order in which a unit takes them.
+    /// Of a keyboard, a recogniser and a hand: the listener knows what sounds like what, and the hand
+    /// reader's classifiers are calibrated, so that both report how likely what they took in is under
+    /// each option.
     #[must_use]
-    pub fn rows(&self) -> &[SensorRow<{ large::OPTIONS }>] {
-        &self.rows
+    pub fn calibrated(lexicon: &Lexicon) -> Self {
+        let categories = (0..lexicon.vocabulary().options().len()).filter_map(Category::from_index);
+        let categories: Vec<_> = categories.collect();
+        let mut parts = likelihoods(LANGUAGE, &categories);
+        for modality in [GESTURE, ANSWER] {
+            parts.extend(likelihoods(modality, &WHOLE));
+        }
+        Self { parts }
+    }
+
+    /// The parts, in the order in which a unit takes them.
+    #[must_use]
+    pub fn parts(&self) -> &[SensorPart<{ large::OPTIONS }>] {
+        &self.parts
     }
 
     /// The same for decisions that are made here.
@@ -73,52 +66,59 @@ impl SensorModel {
     /// [`SensorError::TooLarge`] when there is no room for all tables.
     pub fn here(&self) -> Result<Box<Sensors<{ large::SENSORS }>>, SensorError> {
         let mut sensors = Box::new(Sensors::new());
-        for row in &self.rows {
-            sensors.set_row(row.modality, row.category, row.meant, &row.likelihoods)?;
+        for part in &self.parts {
+            match part {
+                SensorPart::Row(row) => {
+                    sensors.set_row(row.modality, row.category, row.meant, &row.likelihoods)?;
+                }
+                SensorPart::Likelihoods { modality, category } => {
+                    sensors.set_likelihoods(*modality, *category)?;
+                }
+            }
         }
         Ok(sensors)
     }
 }
 
+/// The categories that every intent is made of.
+const WHOLE: [Category; 3] = [Category::ACTION, Category::OBJECT, Category::STORAGE];
+
+fn likelihoods(modality: u8, categories: &[Category]) -> Vec<SensorPart<{ large::OPTIONS }>> {
+    let part = |&category| SensorPart::Likelihoods { modality, category };
+    categories.iter().map(part).collect()
+}
+
 #[cfg(test)]
 mod tests {
+    use deictic_core::joint::Sensor;
+
     use super::*;
 
     #[test]
-    fn names_that_sound_alike_are_reported_together() {
+    fn made_up_sensors_report_what_the_vocabulary_says() {
         let lexicon = Lexicon::tabletop().unwrap();
-        let listener = Listener::new(&lexicon).unwrap();
-        let model = SensorModel::of_listener(&listener, &lexicon);
-        let place = |name: &str| {
-            let entries = lexicon.entries(Category::OBJECT);
-            entries.iter().position(|e| e.name == name).unwrap()
-        };
-        let (cup, cube, can) = (place("cup"), place("cube"), place("can"));
-        let row = |modality| {
-            let is = |r: &&SensorRow<_>| {
-                (r.modality, r.category, usize::from(r.meant)) == (modality, Category::OBJECT, cup)
-            };
-            model.rows().iter().find(is).unwrap().likelihoods.clone()
-        };
-        let heard = row(LANGUAGE);
-        assert!(
-            heard[cup] > heard[cube] && heard[cube] > heard[can],
-            "{heard:?}"
-        );
-        let shown = row(GESTURE);
-        assert_eq!((shown[cup], shown[cube]), (255, 0));
+        let here = SensorModel::made_up(&lexicon).here().unwrap();
+        for modality in [GESTURE, LANGUAGE] {
+            for category in WHOLE {
+                let n = lexicon.vocabulary().options_of(category);
+                let Sensor::Scores(rows) = here.view().sensor(modality, category, n) else {
+                    panic!("no table")
+                };
+                let first = lexicon.similarity().row(modality, category, 0, n);
+                let first: Vec<_> = first.into_iter().map(quantise).collect();
+                assert_eq!((rows.bytes.len(), &rows.bytes[..n]), (n * n, &first[..]));
+            }
+        }
+        const { assert!(6 * large::OPTIONS * large::OPTIONS <= large::SENSORS) };
     }
 
     #[test]
-    fn the_largest_vocabulary_of_a_host_has_room() {
+    fn what_is_calibrated_is_no_score() {
         let lexicon = Lexicon::tabletop().unwrap();
-        let model = SensorModel::made_up(&lexicon);
-        let here = model.here().unwrap();
-        for row in model.rows() {
-            let n = row.likelihoods.len();
-            let table = here.view().rows(row.modality, row.category, n);
-            assert_eq!(table.bytes.len(), n * n);
+        let here = SensorModel::calibrated(&lexicon).here().unwrap();
+        for modality in [GESTURE, LANGUAGE, ANSWER] {
+            let sensor = here.view().sensor(modality, Category::OBJECT, 5);
+            assert_eq!(sensor, Sensor::Likelihoods);
         }
-        const { assert!(6 * large::OPTIONS * large::OPTIONS <= large::SENSORS) };
     }
 }

@@ -5,8 +5,9 @@ use heapless::Vec;
 
 use super::cost::{Costs, MOST, weight};
 use super::fit::{self, Survey};
+use super::likelihoods::Likely;
 use super::posterior::{Found, Marginal, Options, Posterior};
-use super::sensors::Tables;
+use super::sensors::{Sensor, Tables};
 use super::word::{self, DEAREST, Element, Reading, Room};
 use super::{LEVELS, Levels};
 use crate::category::{Category, CategorySet};
@@ -186,9 +187,21 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
             }
         }
         *count = count.saturating_add(1);
+        let rows = match sensors.sensor(modality, category, n) {
+            Sensor::Scores(rows) => rows,
+            Sensor::Likelihoods => {
+                let said = Likely::new(likelihoods, word::in_256ths(weight * p));
+                said.add(words);
+                said.add(named);
+                if category == Category::ACTION {
+                    said.add(&mut self.raised);
+                }
+                return;
+            }
+        };
         let reading = Reading {
             likelihoods,
-            rows: sensors.rows(modality, category, n),
+            rows,
             live,
             weight: word::in_256ths(weight * p),
         };

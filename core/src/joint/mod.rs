@@ -8,7 +8,8 @@
 //!
 //! * [`word`]: how well an option explains a word, at each of [`LEVELS`] noise levels, with rivals
 //!   (options that are raised beside the one that was meant). Whole numbers: see [`cost`].
-//! * [`sensors`]: learned confusion tables; without one a plain sensor is assumed.
+//! * [`sensors`]: learned confusion tables; without one a plain sensor is assumed. A sensor may also
+//!   say by itself how likely what it saw is under each option; nothing of that is noise then.
 //! * [`fit`]: which intents the scene allows, and how well, as the product of its feature
 //!   likelihoods; and how well the words' presence fits an action's signature.
 //! * [`posterior`]: at each level the posterior is a product of one factor per category, so that it
@@ -36,6 +37,7 @@ pub mod calibration;
 pub mod cost;
 pub mod evidence;
 pub mod fit;
+mod likelihoods;
 mod outcome;
 pub mod posterior;
 pub mod sensors;
@@ -43,7 +45,7 @@ pub mod tables;
 pub mod word;
 
 pub use evidence::Evidence;
-pub use sensors::{Sensors, Tables};
+pub use sensors::{Sensor, Sensors, Tables};
 
 /// Noise levels that a word is weighed at: as measured on real gestures, and normal with standard
 /// deviation 0.2, 0.4 and 0.6 (the paper, Considered noise levels n1 to n4).

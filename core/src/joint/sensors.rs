@@ -10,8 +10,8 @@ use crate::sentence::MODALITIES;
 /// the paper's similarity tables, 0.2 to 0.5.
 pub const ELSEWHERE: f32 = 0.3;
 
-/// How many tables there can be: three categories of four modalities.
-pub const TABLES: usize = 12;
+/// How many sensors can be known: eight categories of two modalities, or four of four.
+pub const TABLES: usize = 16;
 
 /// Why a row of a table was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,6 +40,8 @@ struct Place {
     category: Category,
     options: u8,
     start: u16,
+    /// Whether it reports likelihoods as they are; a table that it had is kept, unused.
+    likelihoods: bool,
     /// What is reported of every option but the one that is meant, when that is the same of all.
     elsewhere: Option<u8>,
 }
@@ -91,11 +93,8 @@ impl<const B: usize> Sensors<B> {
         meant: u8,
         row: &[u8],
     ) -> Result<(), SensorError> {
-        if usize::from(modality) >= MODALITIES {
-            return Err(SensorError::UnknownModality {
-                capacity: MODALITIES as u8,
-            });
-        }
+        check(modality)?;
+        self.drop_empty(modality, category);
         let known = self.view().place(modality, category);
         let options = known.map_or(row.len(), |place| usize::from(place.options));
         if options != row.len() || usize::from(meant) >= options {
@@ -116,9 +115,48 @@ impl<const B: usize> Sensors<B> {
         let is = |place: &&mut Place| place.modality == modality && place.category == category;
         if let Some(place) = self.places.iter_mut().find(is) {
             place.elsewhere = elsewhere;
+            place.likelihoods = false;
         }
         Ok(())
     }
+
+    /// Takes the figures that a modality reports of a category for what they are: how likely what was
+    /// seen is under each option. A calibrated classifier does so, or a listener that knows what its
+    /// words sound like; no noise is looked for in them.
+    ///
+    /// # Errors
+    /// [`SensorError`]; nothing has changed then.
+    pub fn set_likelihoods(&mut self, modality: u8, category: Category) -> Result<(), SensorError> {
+        check(modality)?;
+        let is = |place: &&mut Place| place.modality == modality && place.category == category;
+        if let Some(place) = self.places.iter_mut().find(is) {
+            place.likelihoods = true;
+            return Ok(());
+        }
+        let place = Place {
+            modality,
+            category,
+            options: 0,
+            start: 0,
+            likelihoods: true,
+            elsewhere: None,
+        };
+        self.places.push(place).map_err(|_| Self::TOO_LARGE)
+    }
+
+    /// Makes room for a table where there was none.
+    fn drop_empty(&mut self, modality: u8, category: Category) {
+        self.places
+            .retain(|p| p.options > 0 || (p.modality, p.category) != (modality, category));
+    }
+
+    const TOO_LARGE: SensorError = SensorError::TooLarge {
+        capacity: if B > u16::MAX as usize {
+            u16::MAX
+        } else {
+            B as u16
+        },
+    };
 
     fn begin(
         &mut self,
@@ -126,9 +164,7 @@ impl<const B: usize> Sensors<B> {
         category: Category,
         options: usize,
     ) -> Result<usize, SensorError> {
-        let too_large = SensorError::TooLarge {
-            capacity: u16::try_from(B).unwrap_or(u16::MAX),
-        };
+        let too_large = Self::TOO_LARGE;
         let start = self.bytes.len();
         let more = options.saturating_mul(options);
         let place = Place {
@@ -136,6 +172,7 @@ impl<const B: usize> Sensors<B> {
             category,
             options: u8::try_from(options).map_err(|_| too_large)?,
             start: u16::try_from(start).map_err(|_| too_large)?,
+            likelihoods: false,
             elsewhere: None,
         };
         self.bytes
@@ -162,6 +199,24 @@ impl<const B: usize> Sensors<B> {
     }
 }
 
+fn check(modality: u8) -> Result<(), SensorError> {
+    if usize::from(modality) < MODALITIES {
+        return Ok(());
+    }
+    Err(SensorError::UnknownModality {
+        capacity: MODALITIES as u8,
+    })
+}
+
+/// What the figures of a word are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sensor<'a> {
+    /// Scores, to be explained by what is reported when an option is meant, and by noise.
+    Scores(Rows<'a>),
+    /// How likely what was seen is under each option.
+    Likelihoods,
+}
+
 /// The tables of some [`Sensors`].
 #[derive(Clone, Copy, Debug)]
 pub struct Tables<'a> {
@@ -179,6 +234,15 @@ impl<'a> Tables<'a> {
     fn place(&self, modality: u8, category: Category) -> Option<Place> {
         let is = |place: &&Place| place.modality == modality && place.category == category;
         self.places.iter().find(is).copied()
+    }
+
+    /// What a modality reports of a category of `options` options.
+    #[must_use]
+    pub fn sensor(&self, modality: u8, category: Category, options: usize) -> Sensor<'a> {
+        match self.place(modality, category) {
+            Some(place) if place.likelihoods => Sensor::Likelihoods,
+            _ => Sensor::Scores(self.rows(modality, category, options)),
+        }
     }
 
     /// The table of a modality for a category of `options` options; that of a plain sensor when there
@@ -279,6 +343,25 @@ mod tests {
         assert_eq!(sensors.view().rows(0, c, 3).elsewhere, Some(7));
         sensors.set_row(0, c, 1, &[8, 255, 7]).unwrap();
         assert_eq!(sensors.view().rows(0, c, 3).elsewhere, None);
+    }
+
+    #[test]
+    fn a_sensor_reports_scores_or_likelihoods() {
+        let mut sensors = Sensors::<16>::new();
+        let c = Category::OBJECT;
+        sensors.set_likelihoods(1, c).unwrap();
+        assert_eq!(sensors.view().sensor(1, c, 2), Sensor::Likelihoods);
+        for _ in 0..2 {
+            sensors.set_row(1, c, 0, &[255, 7]).unwrap();
+            let Sensor::Scores(rows) = sensors.view().sensor(1, c, 2) else {
+                panic!("a table was set")
+            };
+            assert_eq!(rows.of(0), [255, 7]);
+            sensors.set_likelihoods(1, c).unwrap();
+            assert_eq!(sensors.view().sensor(1, c, 2), Sensor::Likelihoods);
+        }
+        assert!(sensors.set_likelihoods(4, c).is_err());
+        assert!(matches!(sensors.view().sensor(0, c, 2), Sensor::Scores(_)));
     }
 
     #[test]

@@ -27,7 +27,7 @@ const NOT_RAISED: Costs = Costs::all(72);
 
 /// How much less likely any option is that a word is about another one altogether, than the best of
 /// those: 1 to 1000.
-const CLASH: u16 = 319;
+pub(super) const CLASH: u16 = 319;
 
 /// What a word can cost an option at most, 128 octaves: seven words stay below [`MOST`].
 pub const DEAREST: u16 = 0x0fff;

@@ -57,8 +57,8 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     AskHand,
     /// Shows that the host has the key.
     Prove(Proof),
-    /// One row of a sensor's table.
-    Sensor(SensorRow<N>),
+    /// What a sensor reports, a row of its table at a time.
+    Sensor(SensorPart<N>),
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
@@ -236,6 +236,20 @@ pub struct SentencePart<const C: usize, const N: usize> {
     pub first: u8,
     /// The words of this part.
     pub words: Vec<Word<C, N>, WORDS_PART>,
+}
+
+/// What a sensor reports of a category.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SensorPart<const N: usize> {
+    /// One row of its table.
+    Row(SensorRow<N>),
+    /// It has none: its figures are how likely what was seen is under each option.
+    Likelihoods {
+        /// Which modality.
+        modality: u8,
+        /// Of which category.
+        category: Category,
+    },
 }
 
 /// One row of a sensor's table: what a modality reports when an option is meant. Rows come in the

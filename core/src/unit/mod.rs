@@ -19,7 +19,7 @@ pub use crate::protocol::message::Statistics;
 
 use crate::protocol::link::{Counters, Link, Received};
 use crate::protocol::message::{
-    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, RobotState, SensorRow, ToHost,
+    Capacities, Configuration, Fault, Heartbeat, Hello, Loaded, RobotState, SensorPart, ToHost,
     ToUnit,
 };
 use crate::protocol::stuffing::Outbox;
@@ -272,7 +272,7 @@ impl<
             }
             ToUnit::Meanings(meanings) => self.take_meanings(meanings),
             ToUnit::Hand(settings) => self.take_hand_settings(settings),
-            ToUnit::Sensor(row) => self.take_sensor(row),
+            ToUnit::Sensor(part) => self.take_sensor(part),
             ToUnit::Templates(part) => self.hand.take_templates(part).map(|done| self.loaded(done)),
             ToUnit::AskHand => {
                 self.tell_hand();
@@ -326,9 +326,9 @@ impl<
         Ok(())
     }
 
-    fn take_sensor(&mut self, row: &SensorRow<N>) -> Result<(), Fault> {
+    fn take_sensor(&mut self, part: &SensorPart<N>) -> Result<(), Fault> {
         let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
-        let done = self.sensing.take(row, vocabulary)?;
+        let done = self.sensing.take(part, vocabulary)?;
         self.loaded(done);
         Ok(())
     }

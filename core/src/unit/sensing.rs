@@ -4,7 +4,7 @@ use super::loading::in_order;
 use crate::category::Category;
 use crate::joint::sensors::SensorError;
 use crate::joint::{Sensors, Tables};
-use crate::protocol::message::{Fault, Loaded, SensorRow};
+use crate::protocol::message::{Fault, Loaded, SensorPart, SensorRow};
 use crate::vocabulary::Vocabulary;
 
 /// The tables in force, `S` bytes of them, and the one that is arriving.
@@ -46,45 +46,57 @@ impl<const S: usize> Sensing<S> {
         }
     }
 
-    /// Takes a row of a table; the last one completes it.
+    /// Takes what a sensor reports, or a row of it; the last one completes a table.
     ///
     /// # Errors
     /// A [`Fault`]: the row is out of order, is not one over the vocabulary's options, or there is no
     /// room for its table. The tables that are complete stay in force.
     pub fn take<const N: usize, const C: usize, const F: usize>(
         &mut self,
-        row: &SensorRow<N>,
+        part: &SensorPart<N>,
         vocabulary: &Vocabulary<N, C, F>,
     ) -> Result<Option<Loaded>, Fault> {
-        let SensorRow {
+        match part {
+            SensorPart::Row(row) => self.take_row(row, vocabulary.options_of(row.category)),
+            &SensorPart::Likelihoods { modality, category } => {
+                let set = self.sensors.set_likelihoods(modality, category);
+                set.map_err(Fault::Sensor)?;
+                self.arriving = None;
+                Ok(Some(Loaded::Sensor { modality, category }))
+            }
+        }
+    }
+
+    fn take_row<const N: usize>(
+        &mut self,
+        row: &SensorRow<N>,
+        options: usize,
+    ) -> Result<Option<Loaded>, Fault> {
+        let &SensorRow {
             modality,
             category,
             meant,
-            likelihoods,
+            ref likelihoods,
         } = row;
         let next = match self.arriving {
-            Some((m, c, next)) if (m, c) == (*modality, *category) && *meant > 0 => next,
+            Some((m, c, next)) if (m, c) == (modality, category) && meant > 0 => next,
             _ => 0,
         };
-        in_order(usize::from(next), *meant)?;
-        let options = vocabulary.options_of(*category);
+        in_order(usize::from(next), meant)?;
         if likelihoods.len() != options {
             return Err(Fault::Sensor(SensorError::NotSquare {
                 options: u8::try_from(options).unwrap_or(u8::MAX),
             }));
         }
         self.sensors
-            .set_row(*modality, *category, *meant, likelihoods)
+            .set_row(modality, category, meant, likelihoods)
             .map_err(Fault::Sensor)?;
         let next = next.saturating_add(1);
         if usize::from(next) < options {
-            self.arriving = Some((*modality, *category, next));
+            self.arriving = Some((modality, category, next));
             return Ok(None);
         }
         self.arriving = None;
-        Ok(Some(Loaded::Sensor {
-            modality: *modality,
-            category: *category,
-        }))
+        Ok(Some(Loaded::Sensor { modality, category }))
     }
 }

@@ -91,7 +91,7 @@ impl<'a> Conversation<'a> {
     pub fn observe_by(&mut self, session: &mut Session<'_>, sensors: Option<Sensors<'a>>) {
         let model = match sensors {
             Some(_) => SensorModel::made_up(session.lexicon()),
-            None => SensorModel::of_listener(self.listener, session.lexicon()),
+            None => SensorModel::calibrated(session.lexicon()),
         };
         if model != self.told {
             self.told = model.clone();

@@ -75,7 +75,8 @@ impl Decide {
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<()> {
         let (lexicon, table) = self.files.read()?;
-        let listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        listener.uncertainty = self.choice.uncertainty();
         let shown = match &self.show {
             Some(text) => Some(showing(text, &lexicon).map_err(|e| advice(&e, e.remedy()))?),
             None => None,
@@ -92,7 +93,7 @@ impl Decide {
         };
         let model = match self.noise {
             Some(_) => SensorModel::made_up(&lexicon),
-            None => SensorModel::of_listener(&listener, &lexicon),
+            None => SensorModel::calibrated(&lexicon),
         };
         let known = model
             .here()

@@ -86,7 +86,8 @@ impl Play {
             Some(path) => Script::read(path)?,
             None => Script::demo()?,
         };
-        let listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        listener.uncertainty = self.choice.uncertainty();
         let configuration = Configuration {
             profile: self.choice.profile(),
             // Nobody has to find the time to point: what is shown comes with what is said.

@@ -4,6 +4,8 @@ use clap::{Args, ValueEnum};
 use deictic_core::merge::Merge;
 use deictic_core::profile::{Model, Profile, Threshold};
 
+use crate::language::Uncertainty;
+
 /// Which variant of the method decides, on top of a named one.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct Choice {
@@ -62,6 +64,15 @@ enum ThresholdName {
 }
 
 impl Choice {
+    /// How sure a word is: the paper's models weigh figures against each other by their entropy, and
+    /// the joint model takes them for the likelihoods that they are.
+    pub fn uncertainty(self) -> Uncertainty {
+        match self.model {
+            ModelName::Joint => Uncertainty::LIKELIHOOD,
+            _ => Uncertainty::default(),
+        }
+    }
+
     /// The core's profile.
     pub fn profile(self) -> Profile {
         let model = match self.model {

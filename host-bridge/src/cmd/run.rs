@@ -117,6 +117,7 @@ impl Run {
     pub fn run(self) -> Result<u8> {
         let (lexicon, table) = self.files.read()?;
         let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
+        listener.uncertainty = self.choice.uncertainty();
         let mut ears = self.speech.open(&lexicon, &mut listener)?;
         let configuration = Configuration {
             profile: self.choice.profile(),

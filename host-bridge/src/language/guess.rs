@@ -98,13 +98,6 @@ impl Guesser {
             .collect()
     }
 
-    /// The names of an option.
-    pub fn names_of(&self, category: Category, option: u8) -> impl Iterator<Item = &str> {
-        let names = self.names.iter();
-        let own = names.filter(move |(_, _, c, o)| (*c, *o) == (category, option));
-        own.map(|(words, ..)| words.as_str())
-    }
-
     /// How alike each of `options` options of a category is to what was heard, 0..=1.
     #[must_use]
     pub fn likenesses(&self, heard: &str, category: Category, options: usize) -> Vec<f64> {

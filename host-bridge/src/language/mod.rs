@@ -177,18 +177,6 @@ impl<'a> Listener<'a> {
         })
     }
 
-    /// What is reported of every option of a category when `option` is named: the mean over its name
-    /// and synonyms.
-    #[must_use]
-    pub fn reported(&self, category: Category, option: u8) -> Vec<f32> {
-        let utterer = Utterer {
-            lexicon: self.lexicon,
-            guesser: &self.guesser,
-            uncertainty: self.uncertainty,
-        };
-        utterer.reported(category, option)
-    }
-
     /// Understands bytes as they come over a line.
     ///
     /// # Errors

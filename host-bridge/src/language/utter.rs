@@ -18,12 +18,23 @@ pub enum Uncertainty {
         /// leaves "cube" a third.
         sharpness: u8,
     },
+    /// How likely what was heard is when an option is said, beside the one that is said most likely: for
+    /// the joint model, which takes figures for likelihoods.
+    Likelihood {
+        /// The likeness, beside the largest, is multiplied by itself so many times.
+        sharpness: u8,
+    },
     /// The options that were named have 1, all others the same constant, 0..=1 (the paper, One-hot
     /// encoding).
     OneHot {
         /// That of the others.
         others: f32,
     },
+}
+
+impl Uncertainty {
+    /// Likelihoods of which "cup", whose likeness to "cube" is 0.75, leaves "cube" one in 1000.
+    pub const LIKELIHOOD: Self = Self::Likelihood { sharpness: 24 };
 }
 
 impl Default for Uncertainty {
@@ -75,9 +86,10 @@ impl Utterer<'_> {
             let alike = self
                 .guesser
                 .likenesses(&heard.words, slot.category, options);
+            let most = alike.iter().copied().fold(0.0, f64::max);
             for (option, (place, alike)) in places.iter_mut().zip(alike).enumerate() {
                 let named = heard.options.iter().any(|&o| usize::from(o) == option);
-                *place = f32::max(*place, self.likelihood(alike, named));
+                *place = f32::max(*place, self.likelihood(alike, most, named));
             }
         }
         let mut categories = [0.0; Category::LIMIT];
@@ -101,22 +113,7 @@ impl Utterer<'_> {
         })
     }
 
-    /// What every option of a category gets, on the mean, when a name of `option` is heard.
-    pub fn reported(&self, category: Category, option: u8) -> Vec<f32> {
-        let options = self.lexicon.vocabulary().options_of(category);
-        let mut sum = vec![0.0; options];
-        let mut names = 0.0_f32;
-        for name in self.guesser.names_of(category, option) {
-            names += 1.0;
-            let alike = self.guesser.likenesses(name, category, options);
-            for (i, (sum, alike)) in sum.iter_mut().zip(alike).enumerate() {
-                *sum += self.likelihood(alike, i == usize::from(option));
-            }
-        }
-        sum.iter().map(|sum| sum / names.max(1.0)).collect()
-    }
-
-    fn likelihood(&self, alike: f64, named: bool) -> f32 {
+    fn likelihood(&self, alike: f64, most: f64, named: bool) -> f32 {
         match self.uncertainty {
             Uncertainty::OneHot { others } => {
                 if named {
@@ -125,8 +122,12 @@ impl Utterer<'_> {
                     others
                 }
             }
+            Uncertainty::Likelihood { sharpness } if most > 0.0 => {
+                (alike / most).powi(i32::from(sharpness.max(1))) as f32
+            }
+            Uncertainty::Likelihood { .. } => 0.0,
             Uncertainty::Likeness { sharpness } => {
-                let likelihood = (1..sharpness.max(1)).fold(alike, |l, _| l * alike) as f32;
+                let likelihood = alike.powi(i32::from(sharpness.max(1))) as f32;
                 // Two names can look alike to the last letter only if they are one word's options.
                 if named && alike >= 1.0 {
                     1.0

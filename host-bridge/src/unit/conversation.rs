@@ -228,8 +228,8 @@ impl Conversation {
 
     /// Says what sensors report.
     pub fn say_sensors(&mut self, sensors: &SensorModel) -> Result<(), UnitError> {
-        let mut rows = sensors.rows().iter().cloned();
-        rows.try_for_each(|row| self.say(&ToUnit::Sensor(row)))
+        let mut parts = sensors.parts().iter().cloned();
+        parts.try_for_each(|part| self.say(&ToUnit::Sensor(part)))
     }
 
     /// Says a sentence in as many parts as it needs; `answers` is the decision whose question it
