@@ -81,6 +81,22 @@ impl Costs {
         Self([least(a, c), least(b, d)])
     }
 
+    /// To be compared with often.
+    #[must_use]
+    #[inline(always)]
+    pub const fn bar(self) -> Bar {
+        let Self([a, b]) = self;
+        Bar([a | TOP, b | TOP])
+    }
+
+    /// By how much it is below the bar at every level; 0 where it is not.
+    #[must_use]
+    #[inline(always)]
+    pub const fn below(self, bar: Bar) -> Self {
+        let (Self([a, b]), Bar([c, d])) = (self, bar);
+        Self([below(a, c), below(b, d)])
+    }
+
     /// `weight` 256ths of it, no more than [`MOST`].
     #[must_use]
     pub fn weighed(self, weight: u32) -> Self {
@@ -98,12 +114,35 @@ impl Costs {
     }
 }
 
-/// The smaller of each pair of lanes: what `a` has more than `b`, told by a guard bit, is taken away.
+/// Costs up to [`MOST`] with a guard bit before every lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bar([u32; 2]);
+
+impl Bar {
+    /// Nothing is below it.
+    pub const ZERO: Self = Costs::ZERO.bar();
+
+    /// The costs.
+    #[must_use]
+    #[inline(always)]
+    pub const fn costs(self) -> Costs {
+        let Self([a, b]) = self;
+        Costs([a & !TOP, b & !TOP])
+    }
+}
+
+/// The smaller of each pair of lanes.
 #[inline(always)]
 const fn least(a: u32, b: u32) -> u32 {
-    let difference = (a | TOP).wrapping_sub(b);
-    let larger = difference & TOP;
-    a.wrapping_sub(difference & larger.wrapping_sub(larger.wrapping_shr(15)))
+    b.wrapping_sub(below(a, b | TOP))
+}
+
+/// By how much each lane is below that of `bar`, whose guard bit is left over where it is.
+#[inline(always)]
+const fn below(a: u32, bar: u32) -> u32 {
+    let difference = bar.wrapping_sub(a);
+    let smaller = difference & TOP;
+    difference & smaller.wrapping_sub(smaller.wrapping_shr(15))
 }
 
 /// 2 to the power of -`cost` / 32, exact to 24 bits; 0 below 2^-100, which counts nowhere.
@@ -133,6 +172,8 @@ mod tests {
                 assert_eq!(x.least(y).lanes(), expect(u16::min));
                 assert_eq!(x.plus(y).lanes(), expect(|a, b| a + b));
                 assert_eq!(x.plus(y).minus(y), x);
+                assert_eq!(y.minus(x.below(y.bar())), x.least(y));
+                assert_eq!(y.bar().costs(), y);
                 for (level, &cost) in a.iter().enumerate() {
                     assert_eq!(x.at(level), u32::from(cost));
                 }

@@ -4,17 +4,19 @@
 use heapless::Vec;
 
 use super::cost::{Costs, MOST, weight};
-use super::fit::{self, Survey};
+use super::fit::Presence;
+use super::level::Weighed;
 use super::likelihoods::Likely;
 use super::posterior::{Found, Marginal, Options, Posterior};
 use super::sensors::{Sensor, Tables};
+use super::survey::{Fits, Row, Survey, Thing};
 use super::word::{self, DEAREST, Element, Reading, Room};
 use super::{LEVELS, Levels};
 use crate::category::{Category, CategorySet};
-use crate::scene::Entity;
+use crate::scene::Scene;
 use crate::sentence::Word;
 use crate::trace::CategoryTrace;
-use crate::vocabulary::{Action, Vocabulary};
+use crate::vocabulary::Vocabulary;
 
 /// Words of a category that can be added before costs are cut off: [`MOST`] / [`DEAREST`].
 const MANY: u8 = 7;
@@ -35,9 +37,15 @@ pub struct Evidence<const C: usize, const N: usize> {
     count: [u8; C],
     /// The options that are weighed, of actions, objects and storages.
     live: [Vec<u8, N>; 3],
+    /// What it says that words of a category were said or not.
+    presence: Presence<C>,
     /// What the words' presence costs every action.
     prior: [u16; N],
-    /// How well every object and every storage fits every action, in 255ths.
+    /// See [`Fits`], for which these are as many rows as can be.
+    rows: [[Row; 2]; N],
+    /// How many are in use.
+    used: usize,
+    of: [[u8; 2]; N],
     fits: [[[u8; N]; 2]; N],
     /// The categories that some word speaks of.
     spoken: CategorySet,
@@ -50,7 +58,8 @@ struct Work<const N: usize> {
     elements: [Element; N],
     sums: [Costs; N],
     raised: [Costs; N],
-    flags: [[bool; N]; 3],
+    usable: [[bool; N]; 2],
+    weighed: [[Weighed; 2]; N],
 }
 
 impl<const C: usize, const N: usize> Default for Evidence<C, N> {
@@ -69,81 +78,102 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
             named: [[Costs::ZERO; N]; 3],
             count: [0; C],
             live: [const { Vec::new() }; 3],
+            presence: Presence::NONE,
             prior: [0; N],
+            rows: [[Row::NONE; 2]; N],
+            used: 0,
+            of: [[0; 2]; N],
             fits: [[[0; N]; 2]; N],
             spoken: CategorySet::EMPTY,
             work: Work {
                 elements: [Element::NONE; N],
                 sums: [Costs::ZERO; N],
                 raised: [Costs::ZERO; N],
-                flags: [[false; N]; 3],
+                usable: [[false; N]; 2],
+                weighed: [[Weighed::NONE; 2]; N],
             },
         }
     }
 
-    /// Forgets what was heard, of categories with so many options.
-    pub(super) fn restart(&mut self, options: &[u8]) {
+    /// Forgets what was heard.
+    pub(super) fn restart(&mut self) {
         self.spoken = CategorySet::EMPTY;
-        let words = self.words.iter_mut().zip(&mut self.count);
-        for ((words, count), &n) in words.zip(options) {
-            *count = 0;
-            clear(words, n);
-        }
-        let actions = options.first().copied().unwrap_or(0);
-        clear(&mut self.raised, actions);
-        for (named, &n) in self.named.iter_mut().zip(options) {
-            clear(named, n);
-        }
-        let used = self.prior.iter_mut().take(usize::from(actions));
-        used.for_each(|prior| *prior = 0);
+        self.presence = Presence::NONE;
+        self.count = [0; C];
     }
 
     /// Notes with which probability one modality spoke of each category, and whether it did at all.
-    pub(super) fn note(&mut self, actions: &[Action], present: &[f32], spoken: CategorySet) {
+    pub(super) fn note(&mut self, present: &[f32], spoken: CategorySet) {
         self.spoken = self.spoken.union(spoken);
-        for (q, &p) in present.iter().enumerate().skip(1) {
-            fit::presence(q, p, actions, &mut self.prior);
-        }
+        self.presence.note(present);
     }
 
     /// Finds what the scene allows, given which categories were spoken of; leaves in the trace's
     /// figures what the presence of words and the things make of every action.
-    pub(super) fn survey<const F: usize>(
+    #[inline(never)]
+    pub(super) fn survey<const F: usize, const E: usize>(
         &mut self,
         vocabulary: &Vocabulary<N, C, F>,
-        things: &[Entity<F>],
+        scene: &Scene<E, F>,
         alpha: &mut [f32; N],
         beta: &mut [f32; N],
     ) {
-        let mut counts = vocabulary.options().iter().map(|&n| usize::from(n));
-        let flags = self.work.flags.each_mut().map(|flags| {
+        let mut things = Vec::<Thing<'_>, E>::new();
+        for entity in scene.entities() {
+            // A scene has no more things than these.
+            let _ = things.push(Thing {
+                category: entity.category,
+                option: entity.option,
+                features: &entity.features,
+            });
+        }
+        let actions = vocabulary.actions();
+        let used = actions.len();
+        let (Some(prior), Some(possible), Some(alpha)) = (
+            self.prior.get_mut(..used),
+            beta.get_mut(..used),
+            alpha.get_mut(..used),
+        ) else {
+            return;
+        };
+        self.presence.costs(actions, prior);
+        let mut counts = vocabulary.options().iter().skip(1).map(|&n| usize::from(n));
+        let mut usable = self.work.usable.each_mut().map(|flags| {
             let n = counts.next().unwrap_or(0);
             flags.get_mut(..n).unwrap_or_default()
         });
-        let [live, objects, storages] = flags;
-        Survey {
-            actions: vocabulary.actions(),
-            things,
+        self.used = Survey {
+            actions,
+            things: &things,
             spoken: self.spoken,
-            prior: &mut self.prior,
-            fits: self.fits.as_flattened_mut().as_flattened_mut(),
+            prior: &mut *prior,
+            rows: self.rows.as_flattened_mut(),
+            of: &mut self.of,
+            bytes: self.fits.as_flattened_mut().as_flattened_mut(),
             stride: N,
-            possible: beta,
-            live: &mut *live,
-            usable: [&mut *objects, &mut *storages],
+            possible: &mut *possible,
+            usable: usable.each_mut().map(|usable| &mut **usable),
         }
         .run();
-        for (list, flags) in self.live.iter_mut().zip([live, objects, storages]) {
-            list.clear();
-            for (option, _) in (0_u8..).zip(flags).filter(|(_, flag)| **flag) {
-                // There are no more options than places.
-                let _ = list.push(option);
-            }
+        let [actions, things @ ..] = &mut self.live;
+        list(actions, possible.iter().map(|p| *p > 0.0));
+        for (list_of, usable) in things.iter_mut().zip(usable) {
+            list(list_of, usable.iter().copied());
         }
-        let used = vocabulary.actions().len();
-        for (alpha, prior) in alpha.iter_mut().zip(&mut self.prior).take(used) {
+        for (alpha, prior) in alpha.iter_mut().zip(prior) {
             *prior = (*prior).min(DEAREST_PRIOR);
             *alpha = weight(u32::from(*prior));
+        }
+        let categories = self.words.iter_mut().zip(vocabulary.options()).enumerate();
+        for (_, (words, &n)) in categories.filter(|(q, _)| !self.spoken.contains(*q)) {
+            clear(words, n);
+        }
+        let categories = self.named.iter_mut().zip(vocabulary.options()).enumerate();
+        for (_, (named, &n)) in categories.filter(|(q, _)| !self.spoken.contains(*q)) {
+            clear(named, n);
+        }
+        if !self.spoken.contains(0) {
+            clear(&mut self.raised, u8::MAX);
         }
     }
 
@@ -186,11 +216,12 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
                 *costs = costs.least(Costs::all(MOST.wrapping_sub(DEAREST)));
             }
         }
+        let first = *count == 0;
         *count = count.saturating_add(1);
         let rows = match sensors.sensor(modality, category, n) {
             Sensor::Scores(rows) => rows,
             Sensor::Likelihoods => {
-                let said = Likely::new(likelihoods, word::in_256ths(weight * p));
+                let said = Likely::new(likelihoods, word::in_256ths(weight * p), first);
                 said.add(words);
                 said.add(named);
                 if category == Category::ACTION {
@@ -204,6 +235,7 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
             rows,
             live,
             weight: word::in_256ths(weight * p),
+            first,
         };
         let mut room = Room {
             elements: elements.get_mut(..n).unwrap_or_default(),
@@ -262,32 +294,26 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
                 *sum = plain.least(*raised).plus(Costs::all(*prior));
             }
         }
+        let rows = self.rows.as_flattened();
         let posterior = Posterior {
-            actions: vocabulary.actions(),
-            spoken: self.spoken,
-            deeds: Options {
-                live: live_actions,
-                costs: &self.work.sums,
-            },
+            deeds: Options::new(live_actions, &self.work.sums),
             things: [
-                Options {
-                    live: live_objects,
-                    costs: objects,
-                },
-                Options {
-                    live: live_storages,
-                    costs: storages,
-                },
+                Options::new(live_objects, objects),
+                Options::new(live_storages, storages),
             ],
-            fits: self.fits.as_flattened().as_flattened(),
-            stride: N,
+            fits: Fits {
+                rows: rows.get(..self.used).unwrap_or(rows),
+                of: &self.of,
+                bytes: self.fits.as_flattened().as_flattened(),
+                stride: N,
+            },
             rest,
         };
         let [action, object, storage, traces @ ..] = &mut categories[..] else {
             return None;
         };
         let mut marginals = [marginal(action), marginal(object), marginal(storage)];
-        let found = posterior.solve(&mut marginals)?;
+        let found = posterior.solve(self.work.weighed.as_flattened_mut(), &mut marginals)?;
         for ((costs, trace), q) in others.iter().zip(traces).zip(3_usize..) {
             if trace.options > 0 {
                 independent(
@@ -299,6 +325,15 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
             }
         }
         Some(found)
+    }
+}
+
+/// Makes a list of the options that are flagged.
+fn list<const N: usize>(list: &mut Vec<u8, N>, flags: impl Iterator<Item = bool>) {
+    list.clear();
+    for (option, _) in (0_u8..).zip(flags).filter(|(_, flag)| *flag) {
+        // There are no more options than places.
+        let _ = list.push(option);
     }
 }
 

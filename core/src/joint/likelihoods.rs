@@ -2,7 +2,7 @@
 //! left to be explained by noise, so a likelihood is a cost as it stands.
 
 use super::cost::{Costs, OCTAVE};
-use super::word::{CLASH, DEAREST};
+use super::word::{CLASH, DEAREST, put};
 
 /// What a likelihood of `n` 255ths costs. One of 0 counts as 1 in 1000, as no option is less likely.
 #[allow(
@@ -54,16 +54,19 @@ pub struct Likely<'a> {
     likelihoods: &'a [f32],
     /// How much the word counts, in 256ths.
     weight: u32,
+    /// Whether it is the first of its category: what is added to counts as 0 then.
+    first: bool,
     least: u16,
 }
 
 impl<'a> Likely<'a> {
     /// One that counts `weight` 256ths.
-    pub fn new(likelihoods: &'a [f32], weight: u32) -> Self {
+    pub fn new(likelihoods: &'a [f32], weight: u32, first: bool) -> Self {
         let costs = likelihoods.iter().map(|&p| of(p));
         Self {
             likelihoods,
             weight,
+            first,
             least: costs.min().unwrap_or(0),
         }
     }
@@ -73,7 +76,7 @@ impl<'a> Likely<'a> {
         for (heard, &p) in heard.iter_mut().zip(self.likelihoods) {
             let cost = of(p).saturating_sub(self.least).min(CLASH);
             let cost = Costs::all(cost).weighed(self.weight);
-            *heard = heard.plus(cost.least(Costs::all(DEAREST)));
+            put(heard, cost.least(Costs::all(DEAREST)), self.first);
         }
     }
 }
@@ -101,8 +104,8 @@ mod tests {
     #[test]
     fn the_likeliest_costs_nothing() {
         let costs = |weight| {
-            let mut costs = [Costs::ZERO; 5];
-            Likely::new(&[0.25, 0.5, 0.0, 1.0, f32::NAN], weight).add(&mut costs);
+            let mut costs = [Costs::all(7); 5];
+            Likely::new(&[0.25, 0.5, 0.0, 1.0, f32::NAN], weight, true).add(&mut costs);
             costs.map(|c| c.lanes()[0])
         };
         let [quarter, half, never, sure, nothing] = costs(256);

@@ -3,17 +3,19 @@
 //!
 //! ```text
 //! sentences, sensors ── word ──┐
-//! scene, requirements ─ fit ───┴─ posterior ── belief ── outcome ── Decision
+//! scene, requirements ─ survey ┴─ posterior ── belief ── outcome ── Decision
 //! ```
 //!
 //! * [`word`]: how well an option explains a word, at each of [`LEVELS`] noise levels, with rivals
 //!   (options that are raised beside the one that was meant). Whole numbers: see [`cost`].
 //! * [`sensors`]: learned confusion tables; without one a plain sensor is assumed. A sensor may also
 //!   say by itself how likely what it saw is under each option; nothing of that is noise then.
-//! * [`fit`]: which intents the scene allows, and how well, as the product of its feature
-//!   likelihoods; and how well the words' presence fits an action's signature.
-//! * [`posterior`]: at each level the posterior is a product of one factor per category, so that it
-//!   costs actions times (objects + storages) and never actions times objects times storages.
+//! * [`fit`]: how well a thing meets a requirement, as the product of its feature likelihoods; and
+//!   how well the words' presence fits an action's signature.
+//! * [`survey`]: which actions are weighed, and which things fit them how well. Actions that take a
+//!   kind of thing alike share one row of fits.
+//! * [`posterior`]: at each [`level`] the posterior is a product of one factor per category, so that
+//!   it costs rows times options and never actions times objects times storages.
 //! * [`belief`]: the posterior and the noise that was heard, as a confidence that means what it says
 //!   on samples of any level, and the cuts that hold wrong executions to a given share.
 //!
@@ -37,10 +39,12 @@ pub mod calibration;
 pub mod cost;
 pub mod evidence;
 pub mod fit;
+pub mod level;
 mod likelihoods;
 mod outcome;
 pub mod posterior;
 pub mod sensors;
+pub mod survey;
 pub mod tables;
 pub mod word;
 
@@ -81,7 +85,7 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
         evidence,
         ..
     } = trace;
-    evidence.restart(vocabulary.options());
+    evidence.restart();
     for (word, &options) in categories.iter_mut().zip(vocabulary.options()) {
         word.options = options;
         word.present = 0.0;
@@ -109,9 +113,9 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
                 word.quantity = said.quantity().or(word.quantity);
             }
         }
-        evidence.note(vocabulary.actions(), present, spoken);
+        evidence.note(present, spoken);
     }
-    evidence.survey(vocabulary, scene.entities(), alpha, beta);
+    evidence.survey(vocabulary, scene, alpha, beta);
     for (modality, said) in (0_u8..).zip(&said) {
         for (q, said) in said.iter().enumerate().take(used) {
             if let (Some(category), Some(said)) = (Category::from_index(q), said) {

@@ -25,6 +25,7 @@ const LOST: f32 = 0.2;
 const CLEARER: u32 = OCTAVE as u32 * 13 / 2;
 
 /// The outcome of a solved posterior; completes the trace.
+#[inline(never)]
 pub fn outcome<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
     profile: &Profile,

@@ -9,7 +9,7 @@
 //! On a Cortex-M4F an element costs about 25 instructions per option, and 20 more where it may be
 //! raised.
 
-use super::cost::{Costs, MOST};
+use super::cost::{Bar, Costs, MOST};
 use super::sensors::Rows;
 use super::tables::LINES;
 use crate::math::larger;
@@ -40,35 +40,44 @@ const FEW: usize = 54;
 pub struct Element {
     /// In 255ths.
     seen: u8,
-    /// Whether it is 0 or 1, where clipping gathers all that lies beyond.
-    at_end: bool,
+    /// Where its costs begin: those of 0 and 1, where clipping gathers all that lies beyond, come
+    /// after the others.
+    line: u16,
     /// The categories that its action takes.
     signature: u32,
     /// What it costs when it is named itself.
     own: Costs,
     /// What it costs as a scattered rival, or of a flat sensor, when another is named.
-    other: Costs,
+    other: Bar,
     /// The same of an action whose signature is raised, when one of another is named.
-    raised: Costs,
+    raised: Bar,
 }
 
 impl Element {
     /// Of no word.
     pub const NONE: Self = Self {
         seen: 0,
-        at_end: false,
+        line: 0,
         signature: 0,
         own: Costs::ZERO,
-        other: Costs::ZERO,
-        raised: Costs::ZERO,
+        other: Bar::ZERO,
+        raised: Bar::ZERO,
     };
+
+    /// Reads a likelihood of which `expected` would be reported were it named.
+    #[inline(always)]
+    fn read(&mut self, likelihood: f32, expected: u8) {
+        self.seen = (likelihood * 255.0 + 0.5) as u32 as u8;
+        let at_end = self.seen.wrapping_add(1) < 2;
+        self.line = if at_end { 256 } else { 0 };
+        self.own = self.cost(expected);
+    }
 
     /// What it costs when this is expected.
     #[inline(always)]
     fn cost(&self, expected: u8) -> Costs {
-        let error = self.seen.abs_diff(expected);
-        let line = LINES.get(usize::from(self.at_end));
-        let cost = line.and_then(|line| line.get(usize::from(error)));
+        let at = u16::from(self.seen.abs_diff(expected)) | self.line;
+        let cost = LINES.as_flattened().get(usize::from(at & 511));
         cost.copied().unwrap_or(Costs::ZERO)
     }
 }
@@ -96,35 +105,48 @@ pub struct Reading<'a> {
     pub live: &'a [u8],
     /// How much the word counts, in 256ths.
     pub weight: u32,
+    /// Whether it is the first of its category: what is added to counts as 0 then.
+    pub first: bool,
 }
 
 impl Reading<'_> {
-    /// Reads every element, and what it costs when it is named itself and as a rival; of a flat
-    /// sensor gives the sum of what elements cost that are not named.
+    /// Reads every element, and what it costs when it is named itself and when it is not; gives the
+    /// sum of the latter. Of a sensor that is not flat only rivals are known here.
     #[inline(always)]
     fn prepare(&self, room: &mut Room<'_>, rival: Costs, raises: bool) -> Costs {
-        let n = self.likelihoods.len();
-        let mut sum = Costs::ZERO;
-        let mut diagonal = self.rows.bytes.iter().step_by(n.saturating_add(1));
+        let mut diagonal = 0_usize;
+        let next = self.likelihoods.len().wrapping_add(1);
         let mut named = room.named.iter_mut();
-        for (element, &seen) in room.elements.iter_mut().zip(self.likelihoods) {
-            element.seen = (seen * 255.0 + 0.5) as u32 as u8;
-            element.at_end = element.seen.wrapping_add(1) < 2;
-            let own = element.cost(diagonal.next().copied().unwrap_or(u8::MAX));
+        let mut read = |element: &mut Element, likelihood: f32| {
+            let expected = self.rows.bytes.get(diagonal).copied();
+            diagonal = diagonal.wrapping_add(next);
+            element.read(likelihood, expected.unwrap_or(u8::MAX));
             if let Some(named) = named.next() {
-                *named = named.plus(own);
+                put(named, element.own, self.first);
             }
-            element.own = own;
-            element.other = own.plus(rival);
-            if raises {
-                element.raised = own.plus(RAISED);
-            }
-            if let Some(elsewhere) = self.rows.elsewhere {
+        };
+        let mut sum = Costs::ZERO;
+        let elements = room.elements.iter_mut().zip(self.likelihoods);
+        if let Some(elsewhere) = self.rows.elsewhere {
+            for (element, &likelihood) in elements {
+                read(element, likelihood);
                 let cost = element.cost(elsewhere);
-                element.other = cost.least(element.other);
-                sum = sum.plus(element.other);
+                let other = cost.least(element.own.plus(rival));
+                element.other = other.bar();
+                sum = sum.plus(other);
                 if raises {
-                    element.raised = cost.plus(NOT_RAISED).least(element.raised);
+                    let raised = cost.plus(NOT_RAISED).least(element.own.plus(RAISED));
+                    element.raised = raised.bar();
+                }
+            }
+        } else {
+            for (element, &likelihood) in elements {
+                read(element, likelihood);
+                let other = element.own.plus(rival);
+                element.other = other.bar();
+                sum = sum.plus(other);
+                if raises {
+                    element.raised = element.own.plus(RAISED).bar();
                 }
             }
         }
@@ -143,11 +165,11 @@ pub fn parameter(reading: &Reading<'_>, room: &mut Room<'_>, heard: &mut [Costs]
         let mut sum = all;
         if reading.rows.elsewhere.is_some() {
             if let Some(named) = room.elements.get(k) {
-                sum = sum.minus(named.other).plus(named.own);
+                sum = sum.minus(named.other.costs()).plus(named.own);
             }
         } else {
             for (element, &expected) in room.elements.iter().zip(reading.rows.of(k)) {
-                sum = sum.plus(element.cost(expected).least(element.other));
+                sum = sum.minus(element.cost(expected).below(element.other));
             }
         }
         if !few {
@@ -176,7 +198,7 @@ pub fn action(
         element.signature = action.signature.compulsory.0;
     }
     let (mut best, mut best_raised) = (Costs::all(MOST), Costs::all(MOST));
-    let mut last = None;
+    let (mut of, mut beside) = (None, Costs::ZERO);
     let sums = room.sums.iter_mut().zip(&mut *room.raised);
     for (&k, (plain, raised)) in reading.live.iter().zip(sums) {
         let k = usize::from(k);
@@ -184,32 +206,32 @@ pub fn action(
             continue;
         };
         let signature = named.signature;
-        let (mut sum, mut other) = (all, Costs::ZERO);
-        if reading.rows.elsewhere.is_some() {
-            let (of, with) = last.unwrap_or((!signature, Costs::ZERO));
-            other = with;
-            if of != signature {
-                other = Costs::ZERO;
-                for element in room.elements.iter() {
-                    other = other.plus(if element.signature == signature {
-                        element.other
-                    } else {
-                        element.raised
-                    });
-                }
-                last = Some((signature, other));
+        if of != Some(signature) {
+            of = Some(signature);
+            beside = Costs::ZERO;
+            for element in room.elements.iter() {
+                let other = if element.signature == signature {
+                    element.other
+                } else {
+                    element.raised
+                };
+                beside = beside.plus(other.costs());
             }
-            sum = sum.minus(named.other).plus(named.own);
-            other = other.minus(named.other).plus(named.own);
+        }
+        let (mut sum, mut other) = (all, beside);
+        if reading.rows.elsewhere.is_some() {
+            let more = named.own;
+            sum = sum.minus(named.other.costs()).plus(more);
+            other = other.minus(named.other.costs()).plus(more);
         } else {
             for (element, &expected) in room.elements.iter().zip(reading.rows.of(k)) {
                 let cost = element.cost(expected);
-                let alike = cost.least(element.other);
-                sum = sum.plus(alike);
-                other = other.plus(if element.signature == signature {
-                    alike
+                let below = cost.below(element.other);
+                sum = sum.minus(below);
+                other = other.minus(if element.signature == signature {
+                    below
                 } else {
-                    cost.plus(NOT_RAISED).least(element.raised)
+                    cost.plus(NOT_RAISED).below(element.raised)
                 });
             }
         }
@@ -231,22 +253,27 @@ fn bounded(costs: Costs) -> Costs {
 
 /// Adds costs of which `best` are the least. No option is less likely than that the word is about
 /// another one; `floor`, which all have, is left out.
+#[inline(never)]
 fn add(reading: &Reading<'_>, sums: &[Costs], best: Costs, floor: Costs, heard: &mut [Costs]) {
     let most = u32::from(floor.lowest()).saturating_add(u32::from(DEAREST));
     let most = most.min(u32::from(MOST)) as u16;
-    let limit = Costs::new(
-        best.lanes()
-            .map(|best| best.saturating_add(CLASH).min(most)),
-    );
+    let limit = best.least(Costs::all(most.saturating_sub(CLASH)));
+    let limit = limit.plus(Costs::all(CLASH)).bar();
     for (&k, sum) in reading.live.iter().zip(sums) {
-        let mut cost = sum.least(limit).minus(floor);
+        let mut cost = limit.costs().minus(sum.below(limit)).minus(floor);
         if reading.weight != 256 {
             cost = cost.weighed(reading.weight).least(Costs::all(DEAREST));
         }
         if let Some(heard) = heard.get_mut(usize::from(k)) {
-            *heard = heard.plus(cost);
+            put(heard, cost, reading.first);
         }
     }
+}
+
+/// Adds a cost, the first to nothing.
+#[inline(always)]
+pub(super) fn put(sum: &mut Costs, cost: Costs, first: bool) {
+    *sum = if first { cost } else { sum.plus(cost) };
 }
 
 /// A weight in 256ths, at most 16.
