@@ -13,6 +13,8 @@
 //! | `fuzz` | fuzzes every door of core and bridge |
 //! | `interface` | sees that nothing in the core can panic or format |
 //! | `key` | makes a key for one board |
+//! | `deny` | sees that every library's licence and origin will do |
+//! | `versions` | sees that the oldest compiler and libraries that the manifests allow will do |
 //! | `faults` | plays sessions under faults of every kind |
 
 mod board;
@@ -47,6 +49,8 @@ enum Command {
     Faults(cmd::faults::Faults),
     Key(cmd::key::MakeKey),
     Interface(cmd::interface::Interface),
+    Deny(cmd::deny::Deny),
+    Versions(cmd::versions::Versions),
 }
 
 fn main() -> ExitCode {
@@ -63,6 +67,8 @@ fn main() -> ExitCode {
         Command::Faults(faults) => faults.run(),
         Command::Key(key) => key.run(),
         Command::Interface(interface) => interface.run(),
+        Command::Deny(deny) => deny.run(),
+        Command::Versions(versions) => versions.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,6 +5,7 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
 use crate::process::{self, cargo, output, root};
+use crate::toolchain::apt_install;
 
 /// What libFuzzer needs to see which edges an input takes: stable flags of rustc, those that cargo-fuzz gives.
 const INSTRUMENTED: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
@@ -31,10 +32,10 @@ pub struct Fuzz {
 
 impl Fuzz {
     pub fn run(self) -> Result<()> {
-        ensure!(
-            process::find("c++").is_some(),
-            "libFuzzer is written in C++ and there is no c++ on PATH: `apt-get install g++`"
-        );
+        if process::find("c++").is_none() {
+            apt_install(&["g++".to_owned()])
+                .context("libFuzzer is written in C++ and there is no c++ on PATH")?;
+        }
         let all = targets()?;
         if let Some(unknown) = self.target.iter().find(|t| !all.contains(t)) {
             bail!("there is no target {unknown}; there are {}", all.join(", "));

@@ -3,6 +3,7 @@
 pub mod budget;
 pub mod can;
 pub mod demo;
+pub mod deny;
 pub mod faults;
 pub mod fci;
 pub mod firmware;
@@ -12,3 +13,4 @@ pub mod key;
 pub mod qemu;
 pub mod setup;
 pub mod test;
+pub mod versions;

@@ -51,6 +51,8 @@ impl Test {
         trial(&toolchain, "bits", true)?;
         step("a stack that grows too far stops the board");
         trial(&toolchain, "faults", false)?;
+        step("nothing in the core can panic or format text");
+        board::check_interface(&toolchain)?;
         step("the robot's links on a CAN bus");
         if can::is_possible() {
             Can { commands: 500 }.run()?;
