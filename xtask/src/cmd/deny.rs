@@ -28,14 +28,8 @@ impl Deny {
         for manifest in ["Cargo.toml", "tests/fuzz/Cargo.toml"] {
             let mut deny = Command::new(&program);
             deny.current_dir(process::root());
-            deny.args([
-                "--all-features",
-                "--manifest-path",
-                manifest,
-                "check",
-                "--config",
-            ]);
-            deny.arg(process::root().join("deny.toml")).args(&checks);
+            deny.args(["--all-features", "--manifest-path", manifest, "check"]);
+            deny.args(&checks);
             process::run(&mut deny)?;
         }
         Ok(())
