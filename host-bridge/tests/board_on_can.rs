@@ -9,8 +9,6 @@ use std::process::{Child, Command, Stdio};
 
 use serde_json::Value;
 
-const TWENTY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/twenty.toml");
-
 /// A running board; dropping it pulls the plug.
 struct Board(Child);
 
@@ -31,10 +29,10 @@ fn boot(image: &str, port: u16) -> Board {
     Board(qemu.spawn().unwrap())
 }
 
-/// What was decided for every command of the script.
+/// What was decided for every command of the demo.
 fn decisions(board: &str) -> Vec<Value> {
     let mut bridge = Command::new(env!("CARGO_BIN_EXE_deictic"));
-    bridge.args(["play", TWENTY, "--json", "--haste", "20", "--board", board]);
+    bridge.args(["play", "--json", "--haste", "20", "--board", board]);
     let output = bridge.output().unwrap();
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{board}: {error}");

@@ -28,8 +28,6 @@ use deictic_core::large::Intent;
 use deictic_core::time::Micros;
 use serde_json::Value;
 
-const TWENTY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/twenty.toml");
-
 /// The interface that the tests may use.
 fn interface() -> Option<String> {
     let named = std::env::var("DEICTIC_CAN").ok();
@@ -81,10 +79,10 @@ impl Drop for Far {
     }
 }
 
-/// How every command of the script ends with this robot. Where a stop meets the arm is not compared.
+/// How every command of the demo ends with this robot. Where a stop meets the arm is not compared.
 fn endings(robot: &str) -> Vec<String> {
     let mut process = Process::new(env!("CARGO_BIN_EXE_deictic"));
-    process.args(["play", TWENTY, "--json", "--haste", "8", "--robot", robot]);
+    process.args(["play", "--json", "--haste", "8", "--robot", robot]);
     let output = process.output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(

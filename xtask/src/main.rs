@@ -20,8 +20,10 @@
 mod board;
 mod budget;
 mod cmd;
+mod guest;
 mod process;
 mod qemu;
+mod robots;
 mod toolchain;
 
 use std::process::ExitCode;

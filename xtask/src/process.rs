@@ -70,3 +70,19 @@ fn line(command: &Command) -> String {
         .collect::<Vec<_>>()
         .join(" ")
 }
+
+/// Prints lines of cells, each column as wide as its widest cell.
+pub fn print_columns(lines: &[Vec<String>]) {
+    let mut widths: Vec<usize> = Vec::new();
+    for line in lines {
+        widths.resize(widths.len().max(line.len()), 0);
+        for (width, cell) in widths.iter_mut().zip(line) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    for line in lines {
+        let cells = line.iter().zip(&widths);
+        let cells: Vec<_> = cells.map(|(c, &width)| format!("{c:<width$}")).collect();
+        println!("{}", cells.join("  ").trim_end());
+    }
+}

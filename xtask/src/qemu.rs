@@ -18,6 +18,8 @@ use crate::cmd::setup::QEMU;
 pub enum Link {
     /// Listens on this port of the loopback interface, one host at a time, as often as one comes.
     Tcp(u16),
+    /// A pseudo-terminal, which QEMU names on stdout.
+    Terminal,
     /// Nowhere.
     Null,
 }
@@ -32,6 +34,7 @@ pub fn command(image: &Path, link: &Link) -> Command {
         .arg(image);
     let link = match link {
         Link::Tcp(port) => format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on"),
+        Link::Terminal => "pty".to_owned(),
         Link::Null => "null".to_owned(),
     };
     qemu.args(["-serial", &link, "-serial", "null", "-serial", "null"]);

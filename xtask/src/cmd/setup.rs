@@ -1,7 +1,7 @@
 use anyhow::{Context, Result};
 use clap::Args;
 
-use crate::cmd::can;
+use crate::guest;
 use crate::process::{find, output};
 use crate::toolchain::{Toolchain, apt_install};
 
@@ -73,8 +73,8 @@ pub fn ensure_speech() -> Result<()> {
 
 /// What only `test` and `can` need. What cannot be had is told there too, when its tests are skipped.
 pub fn for_tests() {
-    let packages = can::PACKAGES.map(str::to_owned);
-    if !can::is_possible()
+    let packages = guest::PACKAGES.map(str::to_owned);
+    if !guest::is_possible()
         && let Err(error) = apt_install(&packages)
     {
         eprintln!("setup: no CAN bus for the tests: {error:#}");

@@ -5,7 +5,8 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::board::{self, Board};
-use crate::cmd::{budget::Budget, can, can::Can, setup};
+use crate::cmd::{budget::Budget, can::Can, setup};
+use crate::guest;
 use crate::process::{self, cargo};
 use crate::qemu::{self, Link};
 use crate::toolchain::Toolchain;
@@ -54,10 +55,10 @@ impl Test {
         step("nothing in the core can panic or format text");
         board::check_interface(&toolchain)?;
         step("the robot's links on a CAN bus");
-        if can::is_possible() {
+        if guest::is_possible() {
             Can { commands: 500 }.run()?;
         } else {
-            eprintln!("skipped: {}", can::MISSING);
+            eprintln!("skipped: {}", guest::MISSING);
         }
         step("budgets");
         Budget::check(&toolchain)
