@@ -6,8 +6,9 @@ mod common;
 use std::time::Duration;
 
 use common::*;
+use deictic::link::Wire;
 use deictic::robot::Event;
-use deictic::session::Happening;
+use deictic::session::{Happening, Session};
 use deictic::showing::showing;
 use deictic::unit::Loss;
 use deictic_core::large::{ToHost, ToUnit};
@@ -220,4 +221,41 @@ fn noise_between_frames_neither_moves_the_robot_nor_holds_it_up() {
         assert_eq!(happened.iter().filter(accepted).count(), 1, "{happened:#?}");
         assert_eq!(happened.iter().filter(|h| is_done(h)).count(), 1);
     }
+}
+
+/// A line on which nothing arrives before this moment, and then all at once.
+struct Late(Cable, std::time::Instant);
+
+impl Wire for Late {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        self.0.write(bytes)
+    }
+
+    fn read(&mut self, buffer: &mut [u8], patience: Duration) -> std::io::Result<usize> {
+        if std::time::Instant::now() < self.1 {
+            std::thread::sleep(patience.min(Duration::from_millis(5)));
+            return Ok(0);
+        }
+        self.0.read(buffer, patience)
+    }
+}
+
+#[test]
+fn a_unit_that_answers_several_greetings_at_once_has_not_restarted() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let table = table(&lexicon);
+    let wire = cable.clone();
+    let opener = Box::new(move || {
+        // The unit is greeted every half second.
+        let late = std::time::Instant::now() + Duration::from_millis(1_200);
+        Ok(Box::new(Late(wire.clone(), late)) as Box<dyn Wire>)
+    });
+    let robot = Box::new(deictic::robot::sim::Sim::new(1000.0));
+    let configuration = deictic_core::protocol::message::Configuration::DEFAULT;
+    let mut session = Session::open(opener, robot, table, &lexicon, configuration).unwrap();
+    session.observe(surely_said("pick can", &lexicon)).unwrap();
+    let happened = settle(&mut session);
+    let lost = |h: &Happening| matches!(h, Happening::Lost(_));
+    assert!(!happened.iter().any(lost), "{happened:#?}");
+    assert!(happened.iter().any(is_done));
 }

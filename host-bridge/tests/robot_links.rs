@@ -1,17 +1,13 @@
-//! A robot at the far end of a line does what one in this process does, and whatever becomes of the
-//! line, every command ends once, is done at most once, and the table is what the robot made it.
+//! A robot at the far end of a line does what one in this process does: commands, a stop, a hold, the way home.
 
 #[path = "common/far.rs"]
 mod far;
 
-use std::io;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
-use deictic::robot::sim::Sim;
-use deictic::robot::{Event, Fault, Refusal, Taken};
+use deictic::robot::{CommandId, Event, Refusal, Taken};
 use deictic_core::command::message::{FromRobot, ToRobot};
-use deictic_core::command::{HOST_LOST, ROBOT_LOST};
-use far::{Counted, Ended, Scene, Way};
+use far::{Ended, Scene, Way};
 
 /// Commands that depend on each other: what one does decides whether the next can be done.
 const SESSION: [&str; 14] = [
@@ -90,250 +86,6 @@ fn a_stop_stops_it_where_it_is_and_voids_what_is_on_the_way() {
     assert!(done(&scene.run("move-up")));
 }
 
-/// Spoils the `nth` packet of one direction and expects the command to end well all the same, or
-/// with a fault that says so, and never to be done twice.
-fn survives(
-    nth: usize,
-    way: Way,
-    what: fn(&deictic_core::command::Packet) -> Vec<deictic_core::command::Packet>,
-) -> bool {
-    let mut scene = Scene::far();
-    let mut count = 0;
-    let hit = Arc::new(Mutex::new(false));
-    let struck = Arc::clone(&hit);
-    scene.spoil(move |at, packet| {
-        if at == way {
-            count += 1;
-            if count == nth {
-                *struck.lock().unwrap() = true;
-                return Ok(what(packet));
-            }
-        }
-        Ok(vec![packet.clone()])
-    });
-    let end = scene.run("put-into can drawer");
-    let spoilt = *hit.lock().unwrap();
-    let begun = scene.begun();
-    match end {
-        Ended::Event(Event::Done(_)) => {
-            assert_eq!(begun, 1);
-            assert_eq!(scene.table.version(), 6, "not all changes were told");
-        }
-        // The scene was not whole when the command came.
-        Ended::Refused(Refusal::StaleScene { .. }) => {
-            assert_eq!(begun, 0);
-            assert!(
-                done(&scene.run("put-into can drawer")),
-                "it does not recover"
-            );
-        }
-        other => panic!("packet {nth} {way:?}: {other:?}"),
-    }
-    spoilt
-}
-
-#[test]
-fn any_one_packet_may_be_lost_or_come_twice() {
-    for way in [Way::ToRobot, Way::ToHost] {
-        for what in [
-            |_: &_| vec![],
-            |p: &deictic_core::command::Packet| vec![p.clone(), p.clone()],
-        ] {
-            // Packets are spoilt one by one until the command ends before the next one's turn; the
-            // beats of a long motion are all alike.
-            let struck = (1..60).take_while(|nth| survives(*nth, way, what)).count();
-            assert!(struck > 20, "only {struck} packets {way:?}");
-        }
-    }
-}
-
-#[test]
-fn a_cable_may_be_pulled_at_any_packet() {
-    for way in [Way::ToRobot, Way::ToHost] {
-        for nth in 1..40 {
-            let mut scene = Scene::far();
-            let mut count = 0;
-            scene.spoil(move |at, packet| {
-                count += usize::from(at == way);
-                if at == way && count == nth {
-                    return Err(io::Error::other("pulled"));
-                }
-                Ok(vec![packet.clone()])
-            });
-            let (id, taken) = scene.begin("put-into can drawer");
-            let end = match taken {
-                Err(refusal) => Ended::Refused(refusal),
-                Ok(_) => scene.ending(id),
-            };
-            let begun = scene.begun();
-            assert!(begun <= 1);
-            let lost = matches!(
-                &end,
-                Ended::Event(Event::Failed {
-                    fault: Fault::RobotLost,
-                    ..
-                })
-            );
-            assert!(lost || done(&end), "packet {nth} {way:?}: {end:?}");
-            // The arm stands still soon after, and goes on only when it is told to again.
-            scene.pass(HOST_LOST.0 / 1_000 + 20);
-            let far = Arc::clone(scene.far.as_ref().unwrap());
-            assert!(!far.lock().unwrap().end.is_moving(), "packet {nth} {way:?}");
-            {
-                let mut far = far.lock().unwrap();
-                far.cut = false;
-                far.spoil = None;
-            }
-            scene.pass(3_000);
-            assert!(!far.lock().unwrap().end.is_moving());
-            assert_eq!(scene.begun(), begun, "packet {nth} {way:?}: done again");
-            assert!(
-                done(&scene.run("move-up")),
-                "packet {nth} {way:?}: it does not recover"
-            );
-        }
-    }
-}
-
-#[test]
-fn a_robot_that_hears_no_host_stops_within_the_bound() {
-    let mut scene = Scene::far();
-    let (id, _) = scene.begin("pick can");
-    scene.pass(1_000);
-    scene.spoil(|way, packet| match way {
-        Way::ToRobot => Ok(vec![]),
-        Way::ToHost => Ok(vec![packet.clone()]),
-    });
-    let since = scene.now;
-    let far = Arc::clone(scene.far.as_ref().unwrap());
-    while far.lock().unwrap().end.is_moving() {
-        scene.tick();
-        assert!(scene.now.since(since) <= HOST_LOST.after(deictic_core::time::Micros(10_000)));
-    }
-    scene.pass(200);
-    let Some(Ended::Event(Event::Failed { fault, why, .. })) = scene.end_of(id) else {
-        panic!("{:?}", scene.events);
-    };
-    assert_eq!(fault, Fault::HostLost, "{why}");
-}
-
-#[test]
-fn a_robot_that_falls_silent_counts_as_lost() {
-    let mut scene = Scene::far();
-    let (id, _) = scene.begin("pick can");
-    scene.pass(1_000);
-    scene.spoil(|way, packet| match way {
-        Way::ToRobot => Ok(vec![packet.clone()]),
-        Way::ToHost => Ok(vec![]),
-    });
-    let since = scene.now;
-    while scene.end_of(id).is_none() {
-        scene.tick();
-        assert!(scene.now.since(since) <= ROBOT_LOST.after(deictic_core::time::Micros(110_000)));
-    }
-    let end = scene.end_of(id);
-    assert!(
-        matches!(
-            end,
-            Some(Ended::Event(Event::Failed {
-                fault: Fault::RobotLost,
-                ..
-            }))
-        ),
-        "{end:?}"
-    );
-    let gone = scene.run("move-up");
-    assert_eq!(gone, Ended::Refused(Refusal::Gone));
-}
-
-#[test]
-fn a_robot_that_hangs_can_be_stopped() {
-    let mut scene = Scene::before(Counted {
-        inner: Sim::new(1.0),
-        begun: Arc::default(),
-        hangs: true,
-    });
-    let (id, _) = scene.begin("pick can");
-    scene.pass(60_000);
-    assert_eq!(scene.end_of(id), None);
-    assert_eq!(scene.run("move-up"), Ended::Refused(Refusal::Busy));
-    scene.robot.stop(scene.now);
-    scene.pass(50);
-    assert!(scene.end_of(id).is_some());
-}
-
-#[test]
-fn a_robot_that_never_answers_is_halted_and_does_not_begin_later() {
-    let mut scene = Scene::far();
-    let kept = Arc::new(Mutex::new(Vec::new()));
-    let keeps = Arc::clone(&kept);
-    scene.spoil(move |way, packet| {
-        let execute = ToRobot::read(packet).is_ok_and(|m| matches!(m, ToRobot::Execute(_)));
-        if way == Way::ToRobot && execute {
-            keeps.lock().unwrap().push(packet.clone());
-            return Ok(vec![]);
-        }
-        Ok(vec![packet.clone()])
-    });
-    let (id, taken) = scene.begin("pick can");
-    assert_eq!(taken, Ok(Taken::Sent));
-    let end = scene.ending(id);
-    assert!(
-        matches!(
-            end,
-            Ended::Event(Event::Failed {
-                fault: Fault::RobotLost,
-                ..
-            })
-        ),
-        "{end:?}"
-    );
-    // What was stuck on the way arrives after all.
-    let late = kept.lock().unwrap().clone();
-    assert!(late.len() > 1, "it was not given again");
-    let far = Arc::clone(scene.far.as_ref().unwrap());
-    for packet in late {
-        let mut far = far.lock().unwrap();
-        let (now, mut out) = (far.now, Vec::new());
-        far.end.take(now, &packet, &mut out);
-        let refused = out.iter().filter_map(|p| FromRobot::read(p).ok());
-        let refused: Vec<_> = refused.collect();
-        assert!(
-            !refused.iter().any(|m| matches!(m, FromRobot::Accepted(_))),
-            "{refused:?}"
-        );
-    }
-    assert_eq!(scene.begun(), 0);
-}
-
-#[test]
-fn a_robot_that_starts_anew_is_noticed() {
-    let mut scene = Scene::far();
-    let (id, _) = scene.begin("pick can");
-    scene.pass(1_000);
-    let fresh = Scene::far();
-    let far = Arc::clone(scene.far.as_ref().unwrap());
-    {
-        let mut far = far.lock().unwrap();
-        let lexicon = deictic::vocabulary::Lexicon::tabletop().unwrap();
-        far.end = deictic::robot::end::End::new(Box::new(Sim::new(1.0)), lexicon, 2);
-    }
-    drop(fresh);
-    scene.pass(300);
-    let end = scene.end_of(id);
-    assert!(
-        matches!(
-            end,
-            Some(Ended::Event(Event::Failed {
-                fault: Fault::Restarted,
-                ..
-            }))
-        ),
-        "{end:?}"
-    );
-    assert!(done(&scene.run("move-up")));
-}
-
 #[test]
 fn another_bridge_is_not_heard_while_this_one_lives() {
     use deictic_core::command::field::{Id, Number};
@@ -358,4 +110,76 @@ fn another_bridge_is_not_heard_while_this_one_lives() {
         );
     }
     assert!(done(&scene.ending(id)));
+}
+
+/// Lets ten seconds pass and expects that the arm stands still all the while.
+fn stands(scene: &mut Scene) {
+    let posture = scene.robot.posture(scene.now);
+    scene.pass(10_000);
+    assert_eq!(scene.robot.posture(scene.now), posture);
+}
+
+#[test]
+fn a_held_command_stands_and_goes_on_whichever_packets_are_lost() {
+    for lost in 0..4 {
+        let mut scene = Scene::far();
+        let (id, _) = scene.begin("pick can");
+        scene.pass(1_000);
+        let mut count = 0;
+        scene.spoil(move |way, packet| {
+            let said = ToRobot::read(packet);
+            let ours = matches!(said, Ok(ToRobot::Hold(_) | ToRobot::Resume(_)));
+            count += usize::from(way == Way::ToRobot && ours);
+            let gone = way == Way::ToRobot && ours && count <= lost;
+            Ok(if gone { vec![] } else { vec![packet.clone()] })
+        });
+        scene.robot.hold(scene.now).unwrap();
+        scene.pass(1_000);
+        assert!(scene.events.contains(&Event::Held(id)), "{lost} lost");
+        stands(&mut scene);
+        assert_eq!(scene.run("move-up"), Ended::Refused(Refusal::Busy));
+        scene.robot.resume(scene.now).unwrap();
+        scene.pass(300);
+        assert!(scene.events.contains(&Event::Resumed(id)), "{lost} lost");
+        assert_eq!(scene.robot.resume(scene.now), Err(Refusal::NotHeld));
+        assert!(done(&scene.ending(id)));
+        assert_eq!(scene.begun(), 1);
+    }
+}
+
+#[test]
+fn a_stop_ends_what_is_held_and_nothing_is_held_of_an_arm_that_stands() {
+    let mut scene = Scene::far();
+    assert_eq!(scene.robot.hold(scene.now), Err(Refusal::Idle));
+    let (id, _) = scene.begin("pick can");
+    scene.pass(1_000);
+    scene.robot.hold(scene.now).unwrap();
+    scene.pass(300);
+    scene.robot.stop(scene.now);
+    let end = scene.ending(id);
+    assert!(
+        matches!(end, Ended::Event(Event::Stopped { .. })),
+        "{end:?}"
+    );
+    assert_eq!(scene.robot.resume(scene.now), Err(Refusal::NotHeld));
+    assert!(done(&scene.run("move-up")));
+}
+
+#[test]
+fn a_far_arm_goes_home_once() {
+    let mut scene = Scene::far();
+    assert!(done(&scene.run("move-up")));
+    scene.pass(300);
+    let away = scene.robot.posture(scene.now);
+    scene.number += 1;
+    let id = CommandId {
+        run: 1,
+        number: scene.number,
+    };
+    assert_eq!(scene.robot.home(scene.now, id), Ok(Taken::Begun));
+    assert!(done(&scene.ending(id)));
+    scene.pass(300);
+    assert_ne!(scene.robot.posture(scene.now), away);
+    assert_eq!(scene.robot.home(scene.now, id), Err(Refusal::Repeated));
+    assert_eq!(scene.begun(), 2);
 }

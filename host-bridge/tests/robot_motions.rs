@@ -151,19 +151,24 @@ fn nothing_is_pushed_into_something_else() {
 #[test]
 fn a_command_is_held_and_goes_on_where_it_was() {
     let mut bench = Bench::new();
-    assert!(!bench.sim.hold(bench.now));
+    assert_eq!(bench.sim.hold(bench.now), Err(Refusal::Idle));
     bench.begin("pick", &[(O, "can")]).unwrap();
     bench.pass(2);
-    assert!(bench.sim.hold(bench.now));
+    bench.sim.hold(bench.now).unwrap();
+    bench.sim.hold(bench.now).unwrap();
+    let id = CommandId { run: 1, number: 1 };
+    assert_eq!(bench.pass(0), [Event::Held(id)], "told once");
     let stands = bench.sim.posture(bench.now);
     let progress = bench.sim.progress(bench.now);
     assert_eq!(bench.pass(60), []);
     assert_eq!(bench.sim.posture(bench.now), stands);
     assert_eq!(bench.sim.progress(bench.now), progress);
-    assert!(bench.sim.resume(bench.now));
+    bench.sim.resume(bench.now).unwrap();
     assert_eq!(bench.sim.posture(bench.now), stands);
-    assert!(!bench.sim.resume(bench.now));
-    assert!(matches!(bench.pass(60).last(), Some(Event::Done(_))));
+    assert_eq!(bench.sim.resume(bench.now), Err(Refusal::NotHeld));
+    let events = bench.pass(60);
+    assert_eq!(events.first(), Some(&Event::Resumed(id)));
+    assert_eq!(events.last(), Some(&Event::Done(id)));
 }
 
 #[test]

@@ -192,3 +192,25 @@ fn what_the_unit_refuses_is_told_and_moves_nothing() {
         .unwrap();
     assert!(settle(&mut session).iter().any(is_done));
 }
+
+#[test]
+fn what_is_said_and_shown_together_is_one_decision_on_however_slow_a_machine() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    // Longer than the window.
+    cable.with(|line| line.slow = std::time::Duration::from_millis(80));
+    let shown = showing("pick can", &lexicon).unwrap();
+    session
+        .observe_together(&[shown, said("pick the can", &lexicon)])
+        .unwrap();
+    cable.with(|line| line.slow = std::time::Duration::ZERO);
+    let happened = settle(&mut session);
+    let decided = |h: &&Happening| matches!(h, Happening::Decided { .. });
+    assert_eq!(happened.iter().filter(decided).count(), 1, "{happened:#?}");
+    assert!(happened.iter().any(is_done));
+    assert!(
+        !happened
+            .iter()
+            .any(|h| matches!(h, Happening::Refused { .. }))
+    );
+}

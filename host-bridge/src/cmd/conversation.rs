@@ -1,10 +1,12 @@
 //! What a person types and speaks, given to a session; and how it ended.
 
+mod input;
+
 use std::collections::VecDeque;
 
 use deictic_core::decide::Outcome;
-use deictic_core::sentence::{GESTURE, LANGUAGE};
 
+use self::input::{BETWEEN, Input};
 use super::printer::Printer;
 use crate::answering::{Reply, reply};
 use crate::explain;
@@ -12,7 +14,7 @@ use crate::language::{LanguageError, Listener, Spoken, text_of};
 use crate::robot::Event;
 use crate::sensor::Sensors;
 use crate::sensor_model::SensorModel;
-use crate::session::{Happening, Session};
+use crate::session::{Happening, Order, Session};
 use crate::showing::showing;
 use crate::understanding::{self, Understood, mentions_stop};
 
@@ -25,39 +27,8 @@ pub enum Ending {
     NotDone,
 }
 
-/// What is between said and shown in a line.
-const BETWEEN: &str = "//";
-
 /// A share of what may have been heard that is enough to stand still.
 const MAY_BE_STOP: f64 = 0.2;
-
-/// What waits for its turn.
-enum Input {
-    Line(String),
-    Spoken(Spoken),
-}
-
-impl Input {
-    /// What it says, in words.
-    fn text(&self) -> &str {
-        match self {
-            Self::Line(text) => text,
-            Self::Spoken(spoken) => spoken.best(),
-        }
-    }
-
-    /// The modality that it is, where it is only one.
-    fn modality(&self) -> Option<u8> {
-        match self {
-            Self::Spoken(_) => Some(LANGUAGE),
-            Self::Line(text) => match text.split_once(BETWEEN) {
-                None => Some(LANGUAGE),
-                Some((said, _)) if said.trim().is_empty() => Some(GESTURE),
-                Some(_) => None,
-            },
-        }
-    }
-}
 
 /// Takes what is typed and spoken to a session.
 pub struct Conversation<'a> {
@@ -121,6 +92,8 @@ impl<'a> Conversation<'a> {
             self.drop_waiting();
             session.stop();
             self.typed(session, text);
+        } else if let Some(order @ (Order::Hold | Order::Resume | Order::Clear)) = Order::of(text) {
+            self.order(session, order);
         } else if text == "cancel" {
             self.printer
                 .nothing(&format!("{} typed lines are forgotten", self.waiting.len()));
@@ -141,7 +114,21 @@ impl<'a> Conversation<'a> {
             self.drop_waiting();
             session.stop();
         }
-        self.waiting.push_back(Input::Spoken(spoken));
+        let orders = spoken.certain(self.listener.risk).and_then(Order::of);
+        match orders {
+            Some(order @ (Order::Hold | Order::Resume | Order::Clear)) => {
+                self.order(session, order)
+            }
+            _ => self.waiting.push_back(Input::Spoken(spoken)),
+        }
+    }
+
+    /// Tells the robot directly.
+    fn order(&mut self, session: &mut Session<'_>, order: Order) {
+        if let Err(refusal) = session.order(order) {
+            self.last = Ending::NotDone;
+            self.printer.declined(order, &refusal);
+        }
     }
 
     fn drop_waiting(&mut self) {
@@ -156,6 +143,10 @@ impl<'a> Conversation<'a> {
     /// Takes the next input when the session is ready for it: when nothing is going on, or when the
     /// unit waits for just that modality.
     pub fn next(&mut self, session: &mut Session<'_>) {
+        if self.quits && session.is_held() {
+            // Nobody is there any more to have it go on.
+            session.stop();
+        }
         if !session.unit().is_there() {
             return;
         }
@@ -173,6 +164,12 @@ impl<'a> Conversation<'a> {
 
     fn heard(&mut self, session: &mut Session<'_>, spoken: &Spoken) {
         let text = spoken.best();
+        let sure = spoken.certain(self.listener.risk).and_then(Order::of);
+        if let Some(order) = sure.filter(|_| session.question().is_none()) {
+            self.printer.spoken(spoken);
+            self.order(session, order);
+            return;
+        }
         if session.question().is_some() {
             match spoken.certain(self.listener.risk) {
                 Some(text) => self.take(session, Some(text), None),
@@ -200,6 +197,9 @@ impl<'a> Conversation<'a> {
             "quit" | "exit" => self.quit(),
             "help" | "?" => self.printer.help(),
             "table" => self.printer.table(session),
+            _ if shown.is_empty() && Order::of(said) == Some(Order::Home) => {
+                self.order(session, Order::Home);
+            }
             _ => {
                 let given = |text| Some(text).filter(|text: &&str| !text.is_empty());
                 self.take(session, given(said), given(shown));
@@ -279,11 +279,10 @@ impl<'a> Conversation<'a> {
             }
         };
         let first = usize::from(shown.is_some()) + usize::from(!said.is_empty());
-        for sentence in observed.by_ref().take(first) {
-            if let Err(error) = session.observe(sentence) {
-                self.printer.not_understood(&error, AGAIN.into());
-                return;
-            }
+        let first: Vec<_> = observed.by_ref().take(first).collect();
+        if let Err(error) = session.observe_together(&first) {
+            self.printer.not_understood(&error, AGAIN.into());
+            return;
         }
         session.queue(observed);
     }
@@ -299,6 +298,7 @@ impl<'a> Conversation<'a> {
             | Happening::Fault(_)
             | Happening::NoDecision
             | Happening::Hanging(_)
+            | Happening::Declined { .. }
             | Happening::Lost(_)
             | Happening::Dropped(_) => Ending::NotDone,
             Happening::Decided { decision, .. } if decision.outcome == Outcome::Repeat => {

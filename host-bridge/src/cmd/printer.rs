@@ -1,5 +1,7 @@
 //! What happens in a session, on the terminal or as JSON lines.
 
+mod robot;
+
 use deictic_core::decide::Outcome;
 use serde_json::{Value, json};
 
@@ -8,7 +10,6 @@ use crate::explain::{self, Advice};
 use crate::language::Spoken;
 use crate::link::Address;
 use crate::report;
-use crate::robot::Event;
 use crate::scene::Tabletop;
 use crate::session::{Happening, Session};
 use crate::vocabulary::Lexicon;
@@ -116,6 +117,11 @@ impl Printer {
         self.line("", "// pick can                     show it");
         self.line("", "put it there // put-into drawer say and show it");
         self.line("", "stop                            stand still, at once");
+        self.line("", "hold, resume                    stand still, and go on");
+        self.line(
+            "",
+            "home, clear                     go home; a fault was seen to",
+        );
         self.line(
             "",
             "cancel                          forget what was typed and not begun",
@@ -240,6 +246,11 @@ impl Printer {
                     "why": what, "remedy": remedy,
                 }));
             }
+            Happening::Homing => {
+                self.line("robot", "goes home");
+                self.object(&json!({ "event": "homing" }));
+            }
+            Happening::Declined { order, refusal } => self.declined(*order, refusal),
             Happening::Robot(event) => self.robot(event),
             Happening::Hanging(_) => self.advice(
                 "robot",
@@ -275,33 +286,6 @@ impl Printer {
                     format!("{count} commands that were still to come"),
                 );
                 self.object(&json!({ "event": "dropped", "count": count }));
-            }
-        }
-    }
-
-    fn robot(self, event: &Event) {
-        match event {
-            Event::Begun {
-                step, number, of, ..
-            } => {
-                self.line("robot", format!("{number}/{of} {step}"));
-                self.object(&json!({
-                    "event": "step", "step": step, "number": number, "of": of,
-                }));
-            }
-            Event::Changed { .. } | Event::Accepted(_) | Event::Refused { .. } => {}
-            Event::Done(_) => {
-                self.line("robot", paint::good("done"));
-                self.object(&json!({ "event": "done" }));
-            }
-            Event::Stopped { step, .. } => {
-                self.line("robot", paint::ask(format!("stopped at: {step}")));
-                self.object(&json!({ "event": "stopped", "step": step }));
-            }
-            Event::Failed { fault, why, .. } => {
-                self.line("robot", paint::bad(format!("failed: {why}")));
-                let fault = format!("{fault:?}");
-                self.object(&json!({ "event": "failed", "fault": fault, "why": why }));
             }
         }
     }

@@ -268,9 +268,7 @@ fn decide_here(
 }
 
 fn decide_there(unit: &mut GestureUnit, sentences: [Sentence; 2]) -> Result<Decision> {
-    for sentence in sentences {
-        unit.observe(sentence)?;
-    }
+    unit.observe(&sentences)?;
     let patience = Instant::now() + Duration::from_secs(20);
     while Instant::now() < patience {
         for event in unit.poll(Duration::from_millis(200)) {

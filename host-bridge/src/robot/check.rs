@@ -6,7 +6,7 @@ use deictic_core::decide::FEASIBLE;
 use deictic_core::large::{Entity, Intent};
 
 use super::hold::Hold;
-use super::plan::{Place, Task};
+use super::task::{Place, Task};
 use super::{Refusal, Skill, World};
 
 /// How far the arm reaches from its base, in metres (Franka Emika Panda, data sheet).

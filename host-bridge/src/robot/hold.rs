@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::World;
-use super::plan::{Effect, Place};
+use super::task::{Effect, Place};
 use crate::scene::Change;
 
 /// The features that motions change.

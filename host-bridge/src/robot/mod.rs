@@ -10,18 +10,20 @@ mod hold;
 mod motion;
 pub mod panda;
 mod plan;
+mod refusal;
 pub mod remote;
 pub mod sim;
 mod skill;
+mod task;
 pub mod way;
 
 pub use deictic_core::command::code::Fault;
 use deictic_core::large::Intent;
 use deictic_core::time::Micros;
-use thiserror::Error;
 
 use crate::scene::{Change, Tabletop};
 use crate::vocabulary::Lexicon;
+pub use refusal::Refusal;
 pub use skill::Skill;
 
 /// Names a command for good, so that one that arrives twice is not done twice.
@@ -69,130 +71,6 @@ pub struct World<'a> {
     pub table: &'a Tabletop,
     /// The names of things, and which motion an action stands for.
     pub lexicon: &'a Lexicon,
-}
-
-/// Why a robot does not begin a command.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum Refusal {
-    /// It is doing another one.
-    #[error("the robot is still busy")]
-    Busy,
-    /// It has had this command, or a later one of the same run, before.
-    #[error("this command was given before")]
-    Repeated,
-    /// The command was decided on another scene.
-    #[error("it was decided on scene {decided_on}, and the table is at scene {present} now")]
-    StaleScene {
-        /// What it was decided on.
-        decided_on: u32,
-        /// What there is.
-        present: u32,
-    },
-    /// It does not know such a motion.
-    #[error("the robot does not know how to {0}")]
-    UnknownMotion(String),
-    /// A parameter that the motion needs is not given.
-    #[error("no {0} is given, and it takes one")]
-    Missing(&'static str),
-    /// A thing is not in the scene.
-    #[error("the {0} is not here")]
-    NotHere(String),
-    /// A thing is glued to the table.
-    #[error("the {0} is glued")]
-    Glued(String),
-    /// A thing is not glued, so there is nothing to unglue.
-    #[error("the {0} is not glued")]
-    NotGlued(String),
-    /// A thing, or the place it is to go to, is out of the arm's reach.
-    #[error("the {0} is out of reach")]
-    OutOfReach(String),
-    /// Something stands on a thing.
-    #[error("something is on the {0}")]
-    Covered(String),
-    /// A thing takes nothing more.
-    #[error("the {0} is full")]
-    Full(String),
-    /// There is nothing in a thing that could be poured.
-    #[error("there is nothing in the {0}")]
-    Empty(String),
-    /// A thing cannot have this done to it.
-    #[error("the {thing} is not {wanted}")]
-    Unfit {
-        /// The thing.
-        thing: String,
-        /// What it would have to be.
-        wanted: &'static str,
-    },
-    /// The hand holds something else.
-    #[error("the hand holds the {0}")]
-    Holding(String),
-    /// The hand holds nothing.
-    #[error("the hand holds nothing")]
-    NothingHeld,
-    /// A thing would run into another.
-    #[error("the {0} is in the way")]
-    InTheWay(String),
-    /// The arm itself cannot move.
-    #[error("{why}")]
-    Arm {
-        /// Why not.
-        why: String,
-        /// What to do about it.
-        remedy: &'static str,
-    },
-    /// A distance or angle that no motion has.
-    #[error("{0} is beyond what the arm does in one motion")]
-    TooFar(String),
-    /// It is held in the middle of another command.
-    #[error("the robot is held")]
-    Held,
-    /// It has a fault that nobody has seen to.
-    #[error("the robot has a fault")]
-    Faulted,
-    /// It is not heard.
-    #[error("the robot does not answer")]
-    Gone,
-    /// It goes by another vocabulary.
-    #[error("the robot goes by another vocabulary")]
-    OtherVocabulary,
-    /// For another reason, in the robot's words.
-    #[error("{0}")]
-    Other(String),
-}
-
-impl Refusal {
-    /// What the person can do about it.
-    #[must_use]
-    pub fn remedy(&self) -> String {
-        match self {
-            Self::Busy => "wait for it, or say \"stop\"".into(),
-            Self::Repeated => "say it again if it is to be done again".into(),
-            Self::StaleScene { .. } => "the table has changed in between: say it again".into(),
-            Self::UnknownMotion(_) => format!(
-                "give the action a `motion` in the vocabulary: {}",
-                crate::diagnose::quoted(Skill::ALL.map(Skill::name))
-            ),
-            Self::Missing(what) => format!("say or show the {what} too"),
-            Self::NotHere(_) => "put it on the table, or name another".into(),
-            Self::Glued(thing) => format!("say \"unglue {thing}\" first"),
-            Self::NotGlued(_) => "it can be picked as it is".into(),
-            Self::OutOfReach(_) => "move it nearer, or name another".into(),
-            Self::Covered(thing) => format!("take away what stands on the {thing} first"),
-            Self::Full(thing) => format!("empty the {thing} first, or name another"),
-            Self::Empty(_) => "name something that is full".into(),
-            Self::Unfit { .. } => "name another".into(),
-            Self::Holding(thing) => format!("put the {thing} somewhere, or say \"release\""),
-            Self::NothingHeld => "pick something first".into(),
-            Self::InTheWay(thing) => format!("move the {thing} away first, or go another way"),
-            Self::Arm { remedy, .. } => (*remedy).into(),
-            Self::TooFar(_) => "say it in smaller steps".into(),
-            Self::Held => "say \"stop\" first".into(),
-            Self::Faulted => "see to it, then say \"stop\", which clears it".into(),
-            Self::Gone => "look at the robot's power and the cable".into(),
-            Self::OtherVocabulary => "start robot and bridge with the same vocabulary".into(),
-            Self::Other(_) => "look at the robot".into(),
-        }
-    }
 }
 
 /// How a robot has taken a command.
@@ -244,6 +122,10 @@ pub enum Event {
         /// What.
         changes: Vec<Change>,
     },
+    /// The arm stands, ready to go on.
+    Held(CommandId),
+    /// It goes on.
+    Resumed(CommandId),
     /// The command is done.
     Done(CommandId),
     /// It was stopped on the way.
@@ -282,23 +164,32 @@ pub trait Robot: Send {
         Err(Refusal::UnknownMotion("go home".into()))
     }
 
-    /// Pauses in the middle of what it is doing, ready to go on. `false` when it is doing nothing, or
-    /// cannot.
-    fn hold(&mut self, now: Micros) -> bool {
+    /// Pauses in the middle of what it is doing, ready to go on; [`Event::Held`] tells when the arm stands. One that is
+    /// held already stays so.
+    ///
+    /// # Errors
+    /// [`Refusal::Idle`] when it is doing nothing, [`Refusal::CannotHold`] when it cannot.
+    fn hold(&mut self, now: Micros) -> Result<(), Refusal> {
         let _ = now;
-        false
+        Err(Refusal::CannotHold)
     }
 
-    /// Goes on with what was held. `false` when nothing is.
-    fn resume(&mut self, now: Micros) -> bool {
+    /// Goes on with what was held; [`Event::Resumed`] tells when it does.
+    ///
+    /// # Errors
+    /// [`Refusal::NotHeld`] when nothing is held.
+    fn resume(&mut self, now: Micros) -> Result<(), Refusal> {
         let _ = now;
-        false
+        Err(Refusal::NotHeld)
     }
 
-    /// What went wrong has been seen to: it takes commands again. `false` when it cannot yet.
-    fn clear_fault(&mut self, now: Micros) -> bool {
+    /// What went wrong has been seen to: it takes commands again.
+    ///
+    /// # Errors
+    /// [`Refusal`] when it cannot yet.
+    fn clear_fault(&mut self, now: Micros) -> Result<(), Refusal> {
         let _ = now;
-        true
+        Ok(())
     }
 
     /// How the arm stands, where it says so.

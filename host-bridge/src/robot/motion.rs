@@ -5,7 +5,7 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use super::panda::{
     self, Caps, Joints, Limits, OPEN, Path, Pose, READY, Trajectory, apart, hand, skeleton,
 };
-use super::plan::{Act, Effect, Grip, Place, Step};
+use super::task::{Act, Effect, Grip, Place, Step};
 use super::{Posture, Refusal};
 
 /// How long the fingers take to open or close, in seconds.

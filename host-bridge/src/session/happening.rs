@@ -49,6 +49,15 @@ pub enum Happening {
         /// Why it does not.
         refusal: Refusal,
     },
+    /// The robot begins to go home.
+    Homing,
+    /// The robot does not do what it was told directly; it is as it was.
+    Declined {
+        /// What it was told.
+        order: super::Order,
+        /// Why it does not.
+        refusal: Refusal,
+    },
     /// How the robot fares.
     Robot(Event),
     /// The robot has said nothing and got nowhere for too long; it was told to stop, and its command

@@ -8,7 +8,7 @@ use deictic_core::protocol::hand::HandFault;
 use deictic_core::protocol::message::{Decided, Fault, RobotState, RobotStatus};
 use deictic_core::time::Micros;
 
-use super::{Doing, HANGING, Happening, PATIENCE, Session};
+use super::{Doing, HANGING, Happening, Order, PATIENCE, Session, Work};
 use crate::clock;
 use crate::deciding::heard;
 use crate::explain;
@@ -161,8 +161,9 @@ impl Session<'_> {
                 }
                 let doing = Doing {
                     id,
-                    decision,
-                    intent,
+                    work: Work::Decided { decision, intent },
+                    held: false,
+                    relaid: false,
                     percent: 0,
                     heard: clock::now(),
                 };
@@ -195,22 +196,32 @@ impl Session<'_> {
     }
 
     fn accepted(&mut self, id: CommandId) {
-        let Some(doing) = self.doing.as_ref().filter(|d| d.id == id) else {
-            return;
-        };
-        let (decision, intent) = (doing.decision, doing.intent.clone());
-        self.happened.push(Happening::Accepted(intent));
-        self.report(decision, RobotState::Running(0));
+        let mine = self.doing.as_ref().filter(|d| d.id == id);
+        match mine.map(|doing| doing.work.clone()) {
+            None => {}
+            Some(Work::Home) => self.happened.push(Happening::Homing),
+            Some(Work::Decided { decision, intent }) => {
+                self.happened.push(Happening::Accepted(intent));
+                self.report(decision, RobotState::Running(0));
+            }
+        }
     }
 
     fn refused(&mut self, id: CommandId, refusal: robot::Refusal) {
         let Some(doing) = self.doing.take_if(|d| d.id == id) else {
             return;
         };
-        let intent = doing.intent;
-        self.happened.push(Happening::Refused { intent, refusal });
+        match doing.work {
+            Work::Home => {
+                let order = Order::Home;
+                self.happened.push(Happening::Declined { order, refusal });
+            }
+            Work::Decided { decision, intent } => {
+                self.happened.push(Happening::Refused { intent, refusal });
+                self.report(decision, RobotState::Refused);
+            }
+        }
         self.drop_queue();
-        self.report(doing.decision, RobotState::Refused);
     }
 
     fn moved(&mut self, now: Micros, event: robot::Event) {
@@ -219,9 +230,14 @@ impl Session<'_> {
             robot::Event::Accepted(_) | robot::Event::Refused { .. } => {}
             robot::Event::Begun { id, .. } => {
                 let mine = self.doing.as_ref().filter(|d| d.id == id);
-                if let Some(decision) = mine.map(|d| d.decision) {
+                if let Some(work) = mine.map(|doing| doing.work.clone()) {
                     let percent = self.robot.progress(now).map_or(0, |(_, p)| p);
-                    self.report(decision, RobotState::Running(percent));
+                    self.report_on(&work, RobotState::Running(percent));
+                }
+            }
+            robot::Event::Held(id) | robot::Event::Resumed(id) => {
+                if let Some(doing) = self.doing.as_mut().filter(|d| d.id == id) {
+                    doing.held = matches!(event, robot::Event::Held(_));
                 }
             }
             robot::Event::Changed { changes, .. } => {
@@ -251,6 +267,9 @@ impl Session<'_> {
             doing.percent = percent.unwrap_or_default();
             doing.heard = clock::now();
         }
+        if doing.held {
+            doing.heard = clock::now();
+        }
         if clock::since(doing.heard) < HANGING {
             return;
         }
@@ -268,7 +287,13 @@ impl Session<'_> {
             if state != RobotState::Done {
                 self.drop_queue();
             }
-            self.report(doing.decision, state);
+            self.report_on(&doing.work, state);
+        }
+    }
+
+    fn report_on(&mut self, work: &Work, state: RobotState) {
+        if let Work::Decided { decision, .. } = work {
+            self.report(*decision, state);
         }
     }
 

@@ -1,12 +1,12 @@
-//! What became of each command: one record for every execution that the unit has decided on, as soon as it
-//! is over.
+//! What became of each command: one record for every execution that the unit has decided on, and for every way
+//! home, as soon as it is over.
 
 use std::time::Instant;
 
 use deictic_core::decide::Outcome;
 use serde::Serialize;
 
-use super::Happening;
+use super::{Happening, Order};
 use crate::clock;
 use crate::explain;
 use crate::report::{self, IntentReport};
@@ -36,10 +36,10 @@ pub enum Became {
 pub struct Record {
     /// When it was decided, in seconds since the session began.
     pub at: f64,
-    /// The number of the decision.
-    pub decision: u32,
+    /// The number of the decision; none of a way home.
+    pub decision: Option<u32>,
     /// The version of the scene that it was made on.
-    pub scene: u32,
+    pub scene: Option<u32>,
     /// What was to be done.
     pub intent: IntentReport,
     /// Its name, once the robot has begun it: the run of the bridge, and its number in it.
@@ -79,6 +79,20 @@ impl Journal {
         clock::since(self.began).as_secs_f64()
     }
 
+    fn open(&self, decision: Option<u32>, scene: Option<u32>, intent: IntentReport) -> Record {
+        Record {
+            at: self.now(),
+            decision,
+            scene,
+            intent,
+            command: None,
+            steps: 0,
+            became: Became::Failed,
+            why: None,
+            took: 0.0,
+        }
+    }
+
     fn close(&self, mut record: Record, became: Became, why: Option<String>) -> Record {
         record.took = self.now() - record.at;
         (record.became, record.why) = (became, why);
@@ -97,22 +111,25 @@ impl Journal {
                 let Outcome::Execute(intent) = &decision.outcome else {
                     return None;
                 };
-                self.waiting = Some(Record {
-                    at: self.now(),
-                    decision: *number,
-                    scene: *scene,
-                    intent: report::intent(intent, lexicon),
-                    command: None,
-                    steps: 0,
-                    became: Became::Failed,
-                    why: None,
-                    took: 0.0,
-                });
+                let intent = report::intent(intent, lexicon);
+                self.waiting = Some(self.open(Some(*number), Some(*scene), intent));
                 None
             }
             Happening::Accepted(_) => {
                 self.doing.extend(self.waiting.take());
                 None
+            }
+            Happening::Homing => {
+                let record = self.open(None, None, home());
+                self.doing.push(record);
+                None
+            }
+            Happening::Declined {
+                order: Order::Home,
+                refusal,
+            } => {
+                let record = self.open(None, None, home());
+                Some(self.close(record, Became::Refused, Some(refusal.to_string())))
             }
             Happening::Refused { refusal, .. } => {
                 self.untold(Became::Refused, Some(refusal.to_string()))
@@ -163,5 +180,13 @@ impl Journal {
         let mut record = self.doing.remove(self.find(id)?);
         record.command = Some([id.run, id.number]);
         Some(self.close(record, became, why))
+    }
+}
+
+/// The way home, as an intent is written.
+fn home() -> IntentReport {
+    IntentReport {
+        action: Order::Home.to_string(),
+        parameters: Vec::new(),
     }
 }

@@ -9,31 +9,31 @@
 mod happening;
 mod hearing;
 pub mod journal;
+mod orders;
+mod seen;
+mod telling;
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
-use deictic_core::gesture::wire::Sample;
 use deictic_core::large::{self, Intent, Sentence};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::scene::SceneError;
 use deictic_core::time::Micros;
-use deictic_core::unit::pairing::{ANSWER, HAND_PATIENCE};
+use deictic_core::unit::pairing::ANSWER;
 
 use crate::answering::certainly;
 use crate::clock;
 use crate::explain::reasons::Reasons;
-use crate::hand::meaning::HandSetup;
-use crate::robot::{CommandId, Posture, Robot};
+use crate::robot::{CommandId, Robot};
 use crate::scene::Tabletop;
-use crate::sensor_model::SensorModel;
-use crate::understanding::is_stop;
 use crate::unit::{GestureUnit, Opener, UnitError};
 use crate::vocabulary::Lexicon;
 
 pub use happening::Happening;
+pub use orders::Order;
 
 /// How long after the pairing window a decision may take before it counts as missing.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -46,11 +46,23 @@ pub const ANSWER_WEIGHT: f32 = 10.0;
 /// longest motion of a careful arm.
 const HANGING: Duration = Duration::from_secs(60);
 
-/// A command that the robot is doing, and the decision it comes from.
+/// What a command comes from.
+#[derive(Clone, Debug)]
+enum Work {
+    /// The unit has decided so.
+    Decided { decision: u32, intent: Intent },
+    /// The person has sent the arm home.
+    Home,
+}
+
+/// A command that the robot is doing.
 struct Doing {
     id: CommandId,
-    decision: u32,
-    intent: Intent,
+    work: Work,
+    /// Whether it is held.
+    held: bool,
+    /// Whether others have changed the table since it began.
+    relaid: bool,
     /// How far it was when it last got on, and when that was.
     percent: u8,
     heard: Instant,
@@ -125,48 +137,6 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// The table as it is now.
-    #[must_use]
-    pub fn table(&self) -> &Tabletop {
-        &self.table
-    }
-
-    /// The names of everything.
-    #[must_use]
-    pub fn lexicon(&self) -> &'a Lexicon {
-        self.lexicon
-    }
-
-    /// The unit.
-    #[must_use]
-    pub fn unit(&self) -> &GestureUnit {
-        &self.unit
-    }
-
-    /// The question that waits for the person's answer.
-    #[must_use]
-    pub fn question(&self) -> Option<&Question> {
-        self.question.as_ref().map(|(_, question)| question)
-    }
-
-    /// What is in the robot's hand.
-    #[must_use]
-    pub fn holding(&self) -> Option<&str> {
-        self.robot.holding()
-    }
-
-    /// How many percent of its command the robot has done, while it is doing one.
-    #[must_use]
-    pub fn progress(&self) -> Option<u8> {
-        self.robot.progress(self.now()).map(|(_, percent)| percent)
-    }
-
-    /// How the arm stands, where the robot says so.
-    #[must_use]
-    pub fn posture(&self) -> Option<Posture> {
-        self.robot.posture(self.now())
-    }
-
     /// Lays the table anew, as a scene source sees it now. The unit is told; what it decided on the table
     /// before is not executed any more.
     ///
@@ -177,119 +147,12 @@ impl<'a> Session<'a> {
             return Ok(());
         }
         self.table.replace(things, self.lexicon)?;
+        if let Some(doing) = &mut self.doing {
+            doing.relaid = true;
+        }
         self.happened.push(Happening::Table(self.table.version()));
         // A unit that is not there gets it when it comes back.
         let _ = self.unit.set_scene(self.table.scene());
-        Ok(())
-    }
-
-    /// Whether nothing is going on: no decision is waited for, the robot stands still, nothing is
-    /// queued. A question may be open.
-    #[must_use]
-    pub fn is_idle(&self) -> bool {
-        self.due.is_none()
-            && self.doing.is_none()
-            && self.overtaken.is_empty()
-            && self.queue.is_empty()
-            && self.reasons.is_none()
-            && self.happened.is_empty()
-    }
-
-    /// Whether the unit waits for what this modality observes, having heard of another.
-    #[must_use]
-    pub fn is_waiting_for(&self, modality: u8) -> bool {
-        self.due.is_some()
-            && self.doing.is_none()
-            && self.question.is_none()
-            && !self.stopping
-            && !self.spoken.is_empty()
-            && self.spoken.iter().all(|s| s.modality() != modality)
-    }
-
-    /// Whether a hand is in the middle of a sentence.
-    #[must_use]
-    pub fn is_showing(&self) -> bool {
-        self.showing.is_some()
-    }
-
-    /// Tells the unit what a modality observed, at once. A clear stop stops the robot first.
-    ///
-    /// # Errors
-    /// [`UnitError`] when the unit is not there; a stop has been carried out all the same.
-    pub fn observe(&mut self, sentence: Sentence) -> Result<(), UnitError> {
-        if is_stop(&sentence, self.lexicon, &self.configuration.profile) {
-            self.halt();
-            self.stopping = true;
-        }
-        self.hears(&sentence);
-        self.spoken.push(sentence.clone());
-        self.unit.observe(sentence)?;
-        let window = Duration::from_micros(self.configuration.window.0);
-        self.due = Some(clock::now() + window + PATIENCE);
-        Ok(())
-    }
-
-    /// A sentence that is no answer ends the question, and what was said before by the same modality.
-    fn hears(&mut self, sentence: &Sentence) {
-        let modality = sentence.modality();
-        if self.question.take().is_some() || self.spoken.iter().any(|s| s.modality() == modality) {
-            self.spoken.clear();
-        }
-    }
-
-    /// Tells the unit how to read a hand.
-    ///
-    /// # Errors
-    /// [`UnitError`] when the unit is not there; it is told when it comes back.
-    pub fn set_hand(&mut self, setup: HandSetup) -> Result<(), UnitError> {
-        self.unit.set_hand(setup)
-    }
-
-    /// As [`GestureUnit::set_sensors`].
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit is told when it comes back.
-    pub fn set_sensors(&mut self, sensors: SensorModel) -> Result<(), UnitError> {
-        self.unit.set_sensors(sensors)
-    }
-
-    /// Tells the unit what a hand sensor at this machine saw.
-    ///
-    /// # Errors
-    /// [`UnitError`] when the unit is not there.
-    pub fn sense(&mut self, sample: &Sample) -> Result<(), UnitError> {
-        self.unit.sense(sample)
-    }
-
-    /// Whether a hand is in the middle of something, which a decision waits for.
-    fn waits_for_hand(&self) -> bool {
-        let patience = Duration::from_micros(HAND_PATIENCE.0) + PATIENCE;
-        self.showing
-            .is_some_and(|since| clock::now() < since + patience)
-    }
-
-    /// Tells the unit further sentences one by one, each when the robot is done with the one before.
-    /// They are dropped as soon as one of them is not executed to its end.
-    pub fn queue(&mut self, sentences: impl IntoIterator<Item = Sentence>) {
-        self.queue.extend(sentences);
-    }
-
-    /// Takes back what was queued and not begun; what the robot is doing goes on.
-    pub fn cancel(&mut self) {
-        self.drop_queue();
-    }
-
-    /// Tells the unit the answer to its question.
-    ///
-    /// # Errors
-    /// [`UnitError`] when the unit is not there.
-    pub fn answer(&mut self, sentence: Sentence) -> Result<(), UnitError> {
-        let Some((decision, _)) = self.question.take() else {
-            return self.observe(sentence);
-        };
-        self.spoken.push(sentence.clone());
-        self.unit.answer(decision, sentence)?;
-        self.due = Some(clock::now() + PATIENCE);
         Ok(())
     }
 

@@ -33,6 +33,8 @@ pub struct Conversation {
     heard_at: Instant,
     /// Messages that came while something else was waited for.
     pending: Vec<(ToHost, u16)>,
+    /// What is said in one piece, while it is being put together.
+    gathered: Option<Vec<u8>>,
 }
 
 impl Conversation {
@@ -49,7 +51,20 @@ impl Conversation {
             began: now,
             heard_at: now,
             pending: Vec::new(),
+            gathered: None,
         }
+    }
+
+    /// Says in one piece what `act` says, so that the unit hears it at one moment, however slow this machine is.
+    pub fn together(
+        &mut self,
+        act: impl FnOnce(&mut Self) -> Result<(), UnitError>,
+    ) -> Result<(), UnitError> {
+        self.gathered = Some(Vec::new());
+        let said = act(self);
+        let gathered = self.gathered.take().unwrap_or_default();
+        said?;
+        self.wire.write(&gathered).map_err(UnitError::Broken)
     }
 
     /// For how long nothing was heard.
@@ -65,7 +80,13 @@ impl Conversation {
                 "a message does not fit a frame",
             )));
         }
-        self.wire.write(out.waiting()).map_err(UnitError::Broken)
+        match &mut self.gathered {
+            Some(gathered) => {
+                gathered.extend_from_slice(out.waiting());
+                Ok(())
+            }
+            None => self.wire.write(out.waiting()).map_err(UnitError::Broken),
+        }
     }
 
     /// Shows that the host lives.
@@ -153,7 +174,9 @@ impl Conversation {
                         if unit != host {
                             return Err(UnitError::Schema { unit, host });
                         }
-                        self.pending = heard.collect();
+                        // A unit that was late answers all that was asked at once: nothing was loaded in between.
+                        let further = heard.filter(|(m, _)| !matches!(m, ToHost::Hello(_)));
+                        self.pending = further.collect();
                         return Ok(theirs);
                     }
                 }

@@ -135,12 +135,12 @@ impl GestureUnit {
         self.with(|c| c.say_scene(scene))
     }
 
-    /// Tells the unit what a modality observed.
+    /// Tells the unit what modalities observed at the same time.
     ///
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
-    pub fn observe(&mut self, sentence: Sentence) -> Result<(), UnitError> {
-        self.with(|c| c.tell(&sentence, None))
+    pub fn observe(&mut self, sentences: &[Sentence]) -> Result<(), UnitError> {
+        self.with(|c| c.together(|c| sentences.iter().try_for_each(|s| c.tell(s, None))))
     }
 
     /// Tells the unit what the person answered to the question of decision `decision`.

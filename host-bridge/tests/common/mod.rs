@@ -33,6 +33,8 @@ pub struct Line {
     pub filter: Option<Filter>,
     /// What is said to the unit and lost on the way.
     pub swallow: Option<fn(&ToUnit) -> bool>,
+    /// How long it takes to say something.
+    pub slow: Duration,
     /// How often the line was opened.
     pub opened: usize,
     ear: Box<Link>,
@@ -52,6 +54,7 @@ impl Cable {
             dead: false,
             filter: None,
             swallow: None,
+            slow: Duration::ZERO,
             opened: 0,
             ear: Box::default(),
             mouth: Box::default(),
@@ -71,6 +74,7 @@ impl Cable {
 
 impl Wire for Cable {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        std::thread::sleep(self.with(|line| line.slow));
         self.with(|line| {
             if line.cut {
                 return Err(io::Error::other("pulled"));

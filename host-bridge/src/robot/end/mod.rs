@@ -5,28 +5,26 @@
 //! * It moves only while it hears its host: [`HOST_LOST`] after the last beat it stops.
 //! * It tells the end of a command, and all that it changed, as often as it is asked.
 
+mod reading;
 mod served;
+mod taking;
 mod telling;
 
 use std::collections::BTreeMap;
 
-use deictic_core::category::Category;
 use deictic_core::command::code::Outcome;
-use deictic_core::command::field::{Features, Id, Number, Thing};
-use deictic_core::command::message::{
-    Accepted, Execute, FromRobot, Item, Refused, Scene, ToRobot, Welcome,
-};
+use deictic_core::command::field::{Id, Number};
+use deictic_core::command::message::{FromRobot, ToRobot, Welcome};
 use deictic_core::command::{BEAT, HOST_LOST, Packet};
-use deictic_core::intent::Parameter;
-use deictic_core::large::{Entity, Intent};
 use deictic_core::time::Micros;
 
-use super::remote::{action_of, direction_option, reason_of};
-use super::{Command, CommandId, Refusal, Robot, Taken, World};
+use super::Robot;
 use crate::scene::Tabletop;
 use crate::vocabulary::Lexicon;
 
+use reading::Telling;
 pub use served::{ListenError, Listener, Served};
+use taking::named;
 
 /// How many runs of hosts are remembered; the oldest run's number is forgotten first.
 const RUNS: usize = 1024;
@@ -42,13 +40,6 @@ struct Current {
     steps: u8,
     /// Whether it is being stopped since the host is not heard.
     host_lost: bool,
-}
-
-/// A scene that is being told.
-struct Telling {
-    version: u32,
-    things: usize,
-    entities: Vec<Entity>,
 }
 
 /// The robot's side.
@@ -96,17 +87,18 @@ impl End {
         match message {
             ToRobot::HostBeat(of) => self.heard(now, of.id.run, out),
             ToRobot::Halt(of) => self.halt(now, of.id, out),
+            // Whether the arm does so is told by its beats.
             ToRobot::Hold(of) => {
                 if self.is_running(of.id) {
-                    self.held |= self.robot.hold(now);
+                    let _ = self.robot.hold(now);
                 }
             }
             ToRobot::Resume(of) => {
                 if self.is_running(of.id) && self.held && !self.is_alone(now) {
-                    self.held = !self.robot.resume(now);
+                    let _ = self.robot.resume(now);
                 }
             }
-            ToRobot::ClearFault(_) => self.faulted &= !self.robot.clear_fault(now),
+            ToRobot::ClearFault(_) => self.faulted &= self.robot.clear_fault(now).is_err(),
             ToRobot::Ask(of) => self.ask(of.id, out),
             ToRobot::Home(of) => {
                 if self.is_new(of.id, out) {
@@ -185,93 +177,6 @@ impl End {
         }
     }
 
-    fn newest_of(&self, run: u32) -> Number {
-        self.newest.get(&run).copied().unwrap_or_default()
-    }
-
-    fn count(&mut self, id: Id) {
-        if self.newest.len() >= RUNS && !self.newest.contains_key(&id.run) {
-            self.newest.pop_first();
-        }
-        self.newest.insert(id.run, id.number);
-    }
-
-    /// Whether a command is to be judged; one that was given before is answered as it was.
-    fn is_new(&mut self, id: Id, out: &mut Vec<Packet>) -> bool {
-        if id.number > self.newest_of(id.run) {
-            return true;
-        }
-        match &self.current {
-            Some(current) if current.id == id => out.extend(current.said.first().cloned()),
-            _ => out.push(refused(id, &Refusal::Repeated)),
-        }
-        false
-    }
-
-    fn may_begin(&self, now: Micros, id: Id) -> Result<(), Refusal> {
-        if self.host.is_none_or(|(run, _)| run != id.run) || self.is_alone(now) {
-            return Err(Refusal::Other("no beat of this host is heard".into()));
-        }
-        if self.faulted {
-            return Err(Refusal::Faulted);
-        }
-        match (self.held, self.is_moving()) {
-            (true, _) => Err(Refusal::Held),
-            (_, true) => Err(Refusal::Busy),
-            _ => Ok(()),
-        }
-    }
-
-    fn execute(&mut self, now: Micros, of: &Execute) -> Result<Taken, Refusal> {
-        self.may_begin(now, of.id)?;
-        let present = self.table.as_ref().map_or(0, Tabletop::version);
-        let Some(table) = self.table.as_ref().filter(|_| of.scene == present) else {
-            return Err(Refusal::StaleScene {
-                decided_on: of.scene,
-                present,
-            });
-        };
-        let command = Command {
-            id: named(of.id),
-            intent: intent_of(of, &self.lexicon)?,
-            scene: of.scene,
-        };
-        let lexicon = &self.lexicon;
-        self.robot.begin(now, &command, World { table, lexicon })
-    }
-
-    fn begun(&mut self, id: Id, taken: Result<Taken, Refusal>, out: &mut Vec<Packet>) {
-        self.count(id);
-        match taken {
-            Err(refusal) => {
-                let packet = refused(id, &refusal);
-                out.push(packet.clone());
-                // What is being done goes on, and may still be asked after.
-                if !self.is_moving() {
-                    self.take_up(id, Outcome::Refused, packet);
-                }
-            }
-            Ok(_) => {
-                let packet = FromRobot::from(Accepted { id }).packet();
-                out.push(packet.clone());
-                self.take_up(id, Outcome::Running, packet);
-            }
-        }
-    }
-
-    fn take_up(&mut self, id: Id, outcome: Outcome, first: Packet) {
-        self.held = false;
-        self.current = Some(Current {
-            id,
-            outcome,
-            said: vec![first],
-            groups: 0,
-            step: 0,
-            steps: 0,
-            host_lost: false,
-        });
-    }
-
     /// Stands still, and begins nothing of what was given before.
     fn halt(&mut self, now: Micros, id: Id, out: &mut Vec<Packet>) {
         self.held = false;
@@ -292,110 +197,4 @@ impl End {
             out.extend(current.said.iter().cloned());
         }
     }
-
-    fn scene(&mut self, of: &Scene) {
-        self.telling = None;
-        if of.vocabulary != self.lexicon.vocabulary().fingerprint() {
-            return;
-        }
-        self.telling = Some(Telling {
-            version: of.version,
-            things: usize::from(of.things),
-            entities: Vec::new(),
-        });
-        self.told();
-    }
-
-    fn item(&mut self, of: &Item) {
-        let features = self.lexicon.features().len();
-        let Some(telling) = &mut self.telling else {
-            return;
-        };
-        let next = (telling.version, telling.entities.len()) == (of.version, of.place.into());
-        match entity_of(&of.thing, &of.features, features).filter(|_| next) {
-            Some(entity) => telling.entities.push(entity),
-            // Something was lost: the scene is told anew when a command on it is refused.
-            None => self.telling = None,
-        }
-        self.told();
-    }
-
-    fn told(&mut self) {
-        let Some(telling) = self.telling.take_if(|t| t.entities.len() >= t.things) else {
-            return;
-        };
-        let table = Tabletop::numbered(telling.version, telling.entities, &self.lexicon);
-        self.table = table.ok().or(self.table.take());
-    }
-}
-
-fn named(id: Id) -> CommandId {
-    CommandId {
-        run: id.run,
-        number: id.number.get(),
-    }
-}
-
-fn refused(id: Id, refusal: &Refusal) -> Packet {
-    let (reason, value, text) = reason_of(refusal);
-    let refused = Refused {
-        id,
-        reason,
-        value,
-        text,
-    };
-    FromRobot::from(refused).packet()
-}
-
-/// What a command wants, in the vocabulary's numbers.
-fn intent_of(of: &Execute, lexicon: &Lexicon) -> Result<Intent, Refusal> {
-    let action = action_of(of.motion, lexicon)
-        .ok_or_else(|| Refusal::UnknownMotion(format!("{:?}", of.motion)))?;
-    let mut intent = Intent {
-        action,
-        ..Intent::default()
-    };
-    let option = |thing: &Thing| thing.name.get().map(|(_, option)| option);
-    let amount = Some(f32::from(of.amount)).filter(|a| *a > 0.0);
-    let parameters = [
-        (Category::OBJECT, option(&of.object), None),
-        (Category::STORAGE, option(&of.storage), None),
-        (Category::DISTANCE, None, of.distance.get()),
-        (
-            Category::DIRECTION,
-            direction_option(of.direction, lexicon),
-            None,
-        ),
-        (Category::ANGLE, None, of.angle.get()),
-        (Category::AMOUNT, None, amount),
-    ];
-    for (category, option, quantity) in parameters {
-        if option.is_none() && quantity.is_none() {
-            continue;
-        }
-        let option = option.unwrap_or(0);
-        let parameter = Parameter {
-            category,
-            option,
-            quantity,
-        };
-        // There is room for every category.
-        let _ = intent.parameters.push(parameter);
-    }
-    Ok(intent)
-}
-
-fn entity_of(thing: &Thing, features: &Features, count: usize) -> Option<Entity> {
-    let (storage, option) = thing.name.get()?;
-    let features = features.0.iter().take(count);
-    Some(Entity {
-        category: if storage {
-            Category::STORAGE
-        } else {
-            Category::OBJECT
-        },
-        option,
-        position: thing.place.metres(),
-        features: features.map(|f| Features::likelihood(*f)).collect(),
-    })
 }

@@ -82,6 +82,12 @@ impl End {
                     out.push(changed);
                     continue;
                 }
+                Event::Held(_) | Event::Resumed(_) => {
+                    self.held = matches!(event, Event::Held(_));
+                    // The next beat tells, and is due at once.
+                    self.beat = Micros(0);
+                    continue;
+                }
                 Event::Done(_) => {
                     current.outcome = Outcome::Done;
                     Done {

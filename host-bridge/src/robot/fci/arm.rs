@@ -1,7 +1,7 @@
 //! One connection to an arm and its hand: it reads how the arm stands and follows one motion.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use franka::{
     ControllerMode, FciVersion, Gripper, JointPositions, MAX_CUTOFF_FREQUENCY, RealtimeConfig,
@@ -9,6 +9,7 @@ use franka::{
 };
 
 use super::FciFault;
+use super::brakes::{Brakes, Braking};
 use crate::robot::panda::{FR3, Joints, Limits, OPEN, PANDA, Trajectory, apart, hand};
 
 /// External torques at which the arm stops, in Nm, and forces, in N and Nm: those of the maker's
@@ -39,9 +40,6 @@ const STRIDE: f64 = 5e-3;
 
 /// How many states the hand may take to come to rest: one a millisecond.
 const SETTLING: usize = 500;
-
-/// How long the arm takes to come to rest when it is stopped, in seconds.
-const BRAKING: f64 = 0.25;
 
 /// Where an arm is.
 #[derive(Clone, Debug)]
@@ -100,23 +98,23 @@ impl Arm {
         }
     }
 
-    /// Follows a trajectory to its end, or brakes when `stop` is set; `seen` gets every posture on the
+    /// Follows a trajectory to its end, or as far as the brakes let it; `seen` gets every posture on the
     /// way. `true` when it reached the end.
     pub fn follow(
         &self,
         trajectory: &Trajectory,
-        stop: &AtomicBool,
+        brakes: &Brakes<'_>,
         mut seen: impl FnMut(Joints),
     ) -> Result<bool, FciFault> {
         if trajectory.duration() <= 0.0 {
-            return Ok(!stop.load(Ordering::Relaxed));
+            return Ok(!brakes.stop.load(Ordering::Relaxed));
         }
         if apart(&self.joints()?, &trajectory.at(0.0)) > ELSEWHERE {
             return Err(FciFault::Elsewhere);
         }
         let version = self.robot.fci_version();
         let mut start: Option<Joints> = None;
-        let (mut time, mut braked) = (0.0, 0.0_f64);
+        let (mut time, mut braking) = (0.0, Braking::default());
         let mut reached = false;
         let end = hand(&trajectory.path().end()).translation.vector;
         let step = |state: &RobotState, period: franka::Duration| {
@@ -128,11 +126,7 @@ impl Arm {
             };
             let start = *start.get_or_insert(stands);
             let period = period.as_secs_f64().min(STRIDE);
-            if stop.load(Ordering::Relaxed) {
-                braked = (braked + period / BRAKING).min(1.0);
-            }
-            // The clock of the motion runs out: the arm stays on its path while it comes to rest.
-            time += period * (1.0 - braked * braked * (3.0 - 2.0 * braked));
+            time += braking.passed(brakes, period);
             let fading = 1.0 - trajectory.part(time);
             let mut q = trajectory.at(time);
             let begin = trajectory.at(0.0);
@@ -143,7 +137,7 @@ impl Arm {
             let late = time - trajectory.duration();
             reached = late >= PATIENCE || (late >= 0.0 && off(&state.q, &end) < NEAR);
             let mut command = JointPositions::new(q);
-            command.motion_finished = reached || braked >= 1.0;
+            command.motion_finished = reached || braking.stopped(brakes);
             command
         };
         let mode = ControllerMode::JointImpedance;

@@ -5,6 +5,7 @@
 //! measured one. A fault stops the arm where it is, and the command is over.
 
 mod arm;
+mod brakes;
 mod fault;
 mod worker;
 
@@ -88,6 +89,7 @@ impl Fci {
             return Ok(Taken::Begun);
         }
         self.shared.stop.store(false, Ordering::Relaxed);
+        self.shared.hold.store(false, Ordering::Relaxed);
         let gone = || FciFault::Other("the thread that moves the arm is gone".into());
         let sent = self.jobs.send(motions.clone());
         sent.map_err(|_| refusal(gone()))?;
@@ -119,6 +121,8 @@ impl Fci {
                     self.happened.push_back(Event::Changed { id, changes });
                 }
             }
+            Report::Held => self.happened.push_back(Event::Held(id)),
+            Report::Resumed => self.happened.push_back(Event::Resumed(id)),
             Report::Done => {
                 self.running = None;
                 self.happened.push_back(Event::Done(id));
@@ -193,6 +197,18 @@ impl Robot for Fci {
         let arm = self.shared.arm().map_err(refusal)?;
         let motions = homewards(&arm.stance, &arm.limits, &Caps::CAREFUL)?;
         self.start(id, motions)
+    }
+
+    fn hold(&mut self, _now: Micros) -> Result<(), Refusal> {
+        self.running.as_ref().ok_or(Refusal::Idle)?;
+        self.shared.hold.store(true, Ordering::Relaxed);
+        Ok(())
+    }
+
+    fn resume(&mut self, _now: Micros) -> Result<(), Refusal> {
+        let held = self.shared.hold.swap(false, Ordering::Relaxed);
+        let going = self.running.is_some() && held;
+        going.then_some(()).ok_or(Refusal::NotHeld)
     }
 
     fn stop(&mut self, _now: Micros) {

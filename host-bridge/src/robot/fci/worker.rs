@@ -11,6 +11,7 @@ use franka::Gripper;
 
 use super::FciFault;
 use super::arm::{Arm, Host};
+use super::brakes::Brakes;
 use crate::robot::motion::{Kind, Motion, Stance};
 use crate::robot::panda::{Caps, Joints, Limits, OPEN, Path, Trajectory, apart};
 
@@ -31,6 +32,10 @@ pub(super) enum Report {
     Begun(usize),
     /// It has ended, and the arm stands so.
     Ended(usize, Joints),
+    /// The arm stands and waits in a motion.
+    Held,
+    /// It goes on.
+    Resumed,
     /// All are done.
     Done,
     /// The arm was stopped in this motion and stands so.
@@ -53,8 +58,10 @@ pub(super) struct Shared {
     /// The arm, or why there is none.
     known: Mutex<Option<Result<Known, FciFault>>>,
     reports: Mutex<VecDeque<Report>>,
-    /// Set to make the arm come to rest.
+    /// Set to make the arm come to rest and give the command up.
     pub stop: AtomicBool,
+    /// Set to make the arm come to rest and wait, cleared to have it go on.
+    pub hold: AtomicBool,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -111,6 +118,10 @@ impl Shared {
     fn stopping(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
+
+    fn holding(&self) -> bool {
+        self.hold.load(Ordering::Relaxed) && !self.stopping()
+    }
 }
 
 /// Serves commands on `arm`, and on the next connection to `host` when that one breaks, until nobody
@@ -155,6 +166,14 @@ fn attend(arm: &Arm, inbox: &Receiver<Vec<Motion>>, shared: &Shared) -> Result<(
 /// Does one command; an error only when the connection broke.
 fn perform(arm: &Arm, motions: &[Motion], shared: &Shared) -> Result<(), FciFault> {
     for (i, motion) in motions.iter().enumerate() {
+        if shared.holding() {
+            // The fingers were at it, which finish what they are at.
+            shared.report(Report::Held);
+            while shared.holding() {
+                shared.stands(arm.joints()?);
+            }
+            shared.report(Report::Resumed);
+        }
         if shared.stopping() {
             shared.report(Report::Stopped(i, arm.joints()?));
             return Ok(());
@@ -193,8 +212,14 @@ fn act(arm: &Arm, motion: &Motion, shared: &Shared) -> Result<Option<Joints>, Fc
         Kind::Travel(trajectory) => {
             arm.ready()?;
             let end = trajectory.path().end();
+            let held = |held| shared.report(if held { Report::Held } else { Report::Resumed });
+            let brakes = Brakes {
+                stop: &shared.stop,
+                hold: &shared.hold,
+                held: &held,
+            };
             let follow =
-                |way: &Trajectory| arm.follow(way, &shared.stop, |joints| shared.stands(joints));
+                |way: &Trajectory| arm.follow(way, &brakes, |joints| shared.stands(joints));
             let mut reached = follow(trajectory)?;
             for _ in 0..CORRECTIONS {
                 if !reached {

@@ -1,6 +1,6 @@
 //! What the host makes of what the robot says.
 
-use deictic_core::command::code::Outcome;
+use deictic_core::command::code::{Outcome, State};
 use deictic_core::command::field::Id;
 use deictic_core::command::message::FromRobot;
 use deictic_core::time::Micros;
@@ -42,6 +42,7 @@ impl Remote {
                 self.heard = Some(now);
                 let ended = !matches!(beat.outcome, Outcome::Running | Outcome::Nothing);
                 let newest = self.newest;
+                self.hear_held(beat.state == State::Held, beat.number == newest && !ended);
                 if let Some(given) = self.given.as_mut().filter(|_| beat.number == newest) {
                     // What it said of the end is overdue when a second beat speaks of it.
                     if ended && std::mem::replace(&mut given.ended, true) {
@@ -150,6 +151,22 @@ impl Remote {
                 self.held = name_of(of.held, &self.lexicon);
             }
         }
+    }
+
+    /// The robot says whether it is held in the newest command, when it is `doing` that.
+    fn hear_held(&mut self, held: bool, doing: bool) {
+        let Some(given) = self.given.as_mut().filter(|_| doing) else {
+            return;
+        };
+        if given.wanted == Some(held) {
+            given.wanted = None;
+        }
+        if std::mem::replace(&mut given.held, held) != held {
+            let id = given.id;
+            let told = if held { Event::Held } else { Event::Resumed };
+            self.happened.push_back(told(id));
+        }
+        self.say_wanted();
     }
 
     fn joint<const N: usize>(&mut self, first: usize, angles: [f32; N]) {

@@ -5,7 +5,9 @@
 //! robot was lost, counts as failed, and is voided before the robot takes another.
 
 mod carrier;
+mod giving;
 mod hearing;
+mod link;
 mod words;
 
 use std::collections::VecDeque;
@@ -14,30 +16,19 @@ use std::time::{Duration, Instant};
 
 use deictic_core::command::code::Motion;
 use deictic_core::command::field::{Id, Number};
-use deictic_core::command::message::{
-    Ask, ClearFault, FromRobot, Halt, Hold, Home, HostBeat, Resume, ToRobot,
-};
-use deictic_core::command::{BEAT, Packet, ROBOT_LOST};
+use deictic_core::command::message::{ClearFault, Halt, Home, HostBeat};
+use deictic_core::command::{Packet, ROBOT_LOST};
 use deictic_core::time::Micros;
 
-use super::{Command, CommandId, Event, Fault, Posture, Refusal, Robot, Taken, World};
+use super::{Command, CommandId, Event, Posture, Refusal, Robot, Taken, World};
 use crate::scene::Change;
 use crate::vocabulary::Lexicon;
 
 pub use carrier::{Carrier, OnBus, OnWire};
 pub(super) use words::{action_of, direction_option, reason_of, thing_named};
 
-/// How long [`Robot::begin`] waits for the robot's answer; one that comes later is an event.
-const AT_ONCE: Duration = Duration::from_millis(5);
-
 /// When an unanswered command is given again.
 const AGAIN: Micros = Micros::from_millis(60);
-
-/// When an unanswered command counts as lost.
-const GIVEN_UP: Micros = Micros::from_millis(600);
-
-/// How often a lost link is opened anew.
-const REOPEN: Micros = Micros::from_millis(500);
 
 /// Opens a link to a robot, as often as one is needed.
 pub type Opener = Box<dyn FnMut() -> io::Result<Box<dyn Carrier>> + Send>;
@@ -58,6 +49,10 @@ struct Given {
     changes: Vec<Change>,
     /// Whether the last beat said that it has ended.
     ended: bool,
+    /// Whether the last beat said that it is held.
+    held: bool,
+    /// Whether it is to be held or to go on, while the robot does not do so yet.
+    wanted: Option<bool>,
 }
 
 /// A robot behind a link.
@@ -153,186 +148,6 @@ impl Remote {
             number: self.newest,
         }
     }
-
-    /// After opening: whatever an earlier end of this link left behind is not begun any more.
-    fn greet(&mut self, now: Micros) {
-        self.told = None;
-        self.heard = None;
-        self.beat = now.after(BEAT);
-        let id = self.id();
-        self.say(&HostBeat { id }.into());
-        self.say(&Halt { id }.into());
-    }
-
-    fn say(&mut self, message: &ToRobot) {
-        self.send(&message.packet());
-    }
-
-    fn send(&mut self, packet: &Packet) {
-        if let Some(carrier) = &mut self.carrier
-            && let Err(error) = carrier.send(packet)
-        {
-            self.lose(&error);
-        }
-    }
-
-    fn lose(&mut self, error: &io::Error) {
-        self.carrier = None;
-        self.gone = error.to_string();
-    }
-
-    /// Takes what has arrived, waiting for the first of it.
-    fn listen(&mut self, now: Micros, patience: Duration) {
-        let mut patience = patience;
-        while let Some(carrier) = &mut self.carrier {
-            match carrier.receive(patience) {
-                Ok(Some(packet)) => {
-                    // What is no message of ours is as good as lost.
-                    if let Ok(message) = FromRobot::read(&packet) {
-                        self.hear(now, &message);
-                    }
-                }
-                Ok(None) => return,
-                Err(error) => self.lose(&error),
-            }
-            patience = Duration::ZERO;
-        }
-    }
-
-    /// Numbers a new command.
-    fn name(&mut self, id: CommandId) -> Result<Id, Refusal> {
-        let old = |last: CommandId| last.run == id.run && id.number <= last.number;
-        if self.last.is_some_and(old) {
-            return Err(Refusal::Repeated);
-        }
-        self.last = Some(id);
-        match Number::new(self.newest.get().saturating_add(1)) {
-            Some(number) => self.newest = number,
-            None => {
-                self.run = self.run.wrapping_add(1);
-                self.newest = Number::new(1).unwrap_or_default();
-                self.say(&HostBeat { id: self.id() }.into());
-            }
-        }
-        Ok(self.id())
-    }
-
-    /// Gives a command, and waits a little for the answer.
-    fn give(&mut self, now: Micros, id: CommandId, message: &ToRobot) -> Result<Taken, Refusal> {
-        let packet = message.packet();
-        // A line that delivers in bursts may hold the last beat's successor back behind the command.
-        self.say(&HostBeat { id: self.id() }.into());
-        self.send(&packet);
-        self.given = Some(Given {
-            id,
-            packet,
-            at: now,
-            again: now.after(AGAIN),
-            accepted: false,
-            stopping: false,
-            step: String::new(),
-            percent: 0,
-            groups: 0,
-            changes: Vec::new(),
-            ended: false,
-        });
-        let before = self.happened.len();
-        let until = Instant::now() + AT_ONCE;
-        loop {
-            let left = until.saturating_duration_since(Instant::now());
-            self.listen(now, left);
-            let mine = |e: &Event| match e {
-                Event::Accepted(of) => *of == id,
-                Event::Refused { id: of, .. } => *of == id,
-                _ => false,
-            };
-            let answered = self.happened.iter().skip(before).position(mine);
-            match answered.and_then(|at| self.happened.remove(before + at)) {
-                Some(Event::Refused { refusal, .. }) => return Err(refusal),
-                Some(_) => return Ok(Taken::Begun),
-                None if left.is_zero() || self.carrier.is_none() => return Ok(Taken::Sent),
-                None => {}
-            }
-        }
-    }
-
-    /// Why a command cannot be given now.
-    fn ready(&mut self, now: Micros) -> Result<(), Refusal> {
-        self.listen(now, Duration::ZERO);
-        if self.given.is_some() {
-            return Err(Refusal::Busy);
-        }
-        if !self.is_there(now) {
-            return Err(Refusal::Gone);
-        }
-        Ok(())
-    }
-
-    fn fail(&mut self, fault: Fault, why: &str) {
-        if let Some(given) = self.given.take() {
-            let (id, why) = (given.id, why.to_owned());
-            self.happened.push_back(Event::Failed { id, fault, why });
-            // Should it still arrive, or be going on unheard, it ends here.
-            self.say(&Halt { id: self.id() }.into());
-        }
-    }
-
-    /// What is due: a link to be opened anew, a command to be given again, a robot that is lost.
-    fn see_to(&mut self, now: Micros) {
-        if self.carrier.is_none() {
-            let why = format!("the link to the robot is gone: {}", self.gone);
-            self.fail(Fault::RobotLost, &why);
-            if now >= self.reopen {
-                self.reopen = now.after(REOPEN);
-                self.carrier = (self.open)().ok();
-                if self.carrier.is_some() {
-                    self.greet(now);
-                }
-            }
-            return;
-        }
-        if now >= self.beat {
-            self.beat = now.after(BEAT);
-            self.say(&HostBeat { id: self.id() }.into());
-        }
-        let there = self.is_there(now);
-        let Some(given) = &mut self.given else { return };
-        if !there {
-            self.fail(Fault::RobotLost, "the robot is not heard any more");
-        } else if now >= given.again && (!given.accepted || given.stopping) {
-            if now.since(given.at) >= GIVEN_UP {
-                self.fail(Fault::RobotLost, "the robot does not answer");
-                return;
-            }
-            given.again = now.after(AGAIN);
-            let (stopping, packet) = (given.stopping, given.packet.clone());
-            if stopping {
-                self.say(&Halt { id: self.id() }.into());
-            } else {
-                self.send(&packet);
-            }
-        }
-    }
-
-    fn ask(&mut self) {
-        self.say(&Ask { id: self.id() }.into());
-    }
-
-    /// A stop that is a command of its own: it is done when what was being done has ended.
-    fn stand_still(&mut self, now: Micros, id: CommandId) -> Taken {
-        if self.given.is_none() {
-            // A person who says "stop" to an arm that stands still has seen to it.
-            self.say(&ClearFault { id: self.id() }.into());
-        }
-        self.stop(now);
-        self.last = Some(id);
-        self.stops = Some(id);
-        let until = Instant::now() + AT_ONCE;
-        while self.given.is_some() && self.carrier.is_some() && Instant::now() < until {
-            self.listen(now, until.saturating_duration_since(Instant::now()));
-        }
-        Taken::Begun
-    }
 }
 
 impl Robot for Remote {
@@ -363,19 +178,22 @@ impl Robot for Remote {
         self.give(now, id, &Home { id: named }.into())
     }
 
-    fn hold(&mut self, _now: Micros) -> bool {
-        self.say(&Hold { id: self.id() }.into());
-        self.given.is_some() && self.carrier.is_some()
+    fn hold(&mut self, _now: Micros) -> Result<(), Refusal> {
+        self.want(true, Refusal::Idle)
     }
 
-    fn resume(&mut self, _now: Micros) -> bool {
-        self.say(&Resume { id: self.id() }.into());
-        self.given.is_some() && self.carrier.is_some()
+    fn resume(&mut self, _now: Micros) -> Result<(), Refusal> {
+        let held = |given: &Given| given.held || given.wanted == Some(true);
+        if !self.given.as_ref().is_some_and(held) {
+            return Err(Refusal::NotHeld);
+        }
+        self.want(false, Refusal::NotHeld)
     }
 
-    fn clear_fault(&mut self, _now: Micros) -> bool {
+    fn clear_fault(&mut self, now: Micros) -> Result<(), Refusal> {
+        self.ready(now)?;
         self.say(&ClearFault { id: self.id() }.into());
-        self.carrier.is_some()
+        Ok(())
     }
 
     fn posture(&self, _now: Micros) -> Option<Posture> {

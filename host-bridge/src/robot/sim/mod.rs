@@ -176,30 +176,26 @@ impl Robot for Sim {
         Ok(Taken::Begun)
     }
 
-    fn hold(&mut self, now: Micros) -> bool {
+    fn hold(&mut self, now: Micros) -> Result<(), Refusal> {
         let ended = self.poll(now);
         self.happened.extend(ended);
-        match &mut self.running {
-            Some(running) => {
-                running.held.get_or_insert(now);
-                true
-            }
-            None => false,
+        let running = self.running.as_mut().ok_or(Refusal::Idle)?;
+        if running.held.is_none() {
+            running.held = Some(now);
+            self.happened.push_back(Event::Held(running.id));
         }
+        Ok(())
     }
 
-    fn resume(&mut self, now: Micros) -> bool {
-        let Some(running) = &mut self.running else {
-            return false;
-        };
-        let Some(since) = running.held.take() else {
-            return false;
-        };
+    fn resume(&mut self, now: Micros) -> Result<(), Refusal> {
+        let running = self.running.as_mut().ok_or(Refusal::NotHeld)?;
+        let since = running.held.take().ok_or(Refusal::NotHeld)?;
         let pause = now.since(since);
         for moment in running.ends.iter_mut().chain([&mut running.began]) {
             *moment = moment.after(pause);
         }
-        true
+        self.happened.push_back(Event::Resumed(running.id));
+        Ok(())
     }
 
     fn stop(&mut self, now: Micros) {
