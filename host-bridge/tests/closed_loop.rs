@@ -5,6 +5,7 @@ mod common;
 
 use common::*;
 use deictic::explain;
+use deictic::scene::SceneFile;
 use deictic::session::{Happening, Session};
 use deictic::showing::showing;
 use deictic_core::category::Category;
@@ -92,20 +93,19 @@ fn feature(session: &Session<'_>, category: Category, name: &str, feature: &str)
     thing.features[lexicon.feature(feature).unwrap()]
 }
 
-#[test]
-fn every_decision_sees_the_scene_that_the_last_one_made() {
-    let (cable, lexicon) = (Cable::new(), lexicon());
-    let mut session = open(&cable, &lexicon, 1000.0);
-    for (i, (text, shown, comes)) in SESSION.into_iter().enumerate() {
+/// Plays commands one after the other, each decided on the scene that the last one left.
+fn play(session: &mut Session<'_>, commands: &[(&str, &str, Comes)]) {
+    let lexicon = session.lexicon();
+    for (i, &(text, shown, comes)) in commands.iter().enumerate() {
         let before = session.table().version();
-        session.observe(said(text, &lexicon)).unwrap();
-        session.observe(showing(shown, &lexicon).unwrap()).unwrap();
-        let happened = settle(&mut session);
+        let sentences = [showing(shown, lexicon).unwrap(), said(text, lexicon)];
+        session.observe_together(&sentences).unwrap();
+        let happened = settle(session);
         let (scene, outcome) = decision(&happened);
         assert_eq!(scene, before, "{i} {text}: made on the present scene");
         match comes {
             ToPass => {
-                let done = intent_of(&outcome).map(|i| explain::intent(i, &lexicon));
+                let done = intent_of(&outcome).map(|i| explain::intent(i, lexicon));
                 assert!(
                     happened.iter().any(is_done),
                     "{i} {text}: {done:?} {happened:#?}"
@@ -123,6 +123,13 @@ fn every_decision_sees_the_scene_that_the_last_one_made() {
             }
         }
     }
+}
+
+#[test]
+fn every_decision_sees_the_scene_that_the_last_one_made() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let mut session = open(&cable, &lexicon, 1000.0);
+    play(&mut session, &SESSION);
     let (object, storage) = (Category::OBJECT, Category::STORAGE);
     for (category, thing, name, likelihood) in [
         (object, "box", "glued", 0.0),
@@ -136,4 +143,54 @@ fn every_decision_sees_the_scene_that_the_last_one_made() {
         assert_eq!(is, likelihood, "{thing} {name}");
     }
     assert_eq!(session.holding(), Some("can"));
+}
+
+/// A can of 0.33 l and a cup of 0.25 l, both full, and a bowl that takes half a litre.
+const DRINKS: &str = r#"
+[[object]]
+name = "can"
+position = [0.45, 0.10, 0.06]
+features = { reachable = true, pickable = true, full-liquid = true }
+holds = 0.33
+liquid = 0.33
+
+[[object]]
+name = "cup"
+position = [0.40, -0.12, 0.05]
+features = { reachable = true, pickable = true, full-liquid = true }
+holds = 0.25
+liquid = 0.25
+
+[[storage]]
+name = "bowl"
+position = [0.44, -0.24, 0.04]
+features = { reachable = true, container = true, liquid-container = true }
+holds = 0.5
+"#;
+
+#[test]
+fn a_container_fills_up_and_what_is_poured_from_runs_empty() {
+    let (cable, lexicon) = (Cable::new(), lexicon());
+    let table = SceneFile::parse("drinks", DRINKS).unwrap();
+    let table = table.tabletop(&lexicon).unwrap();
+    let mut session = open_on(&cable, &lexicon, 1000.0, table);
+    let (object, storage) = (Category::OBJECT, Category::STORAGE);
+    let pour_can = ("pour the can into the bowl", "pour can bowl");
+    let pour_cup = ("pour the cup into the bowl", "pour cup bowl");
+    let comes = |(said, shown), comes| (said, shown, comes);
+    play(&mut session, &[comes(pour_can, ToPass)]);
+    assert_eq!(feature(&session, object, "can", "full-liquid"), 0.0);
+    assert_eq!(feature(&session, storage, "bowl", "full-liquid"), 0.0);
+    play(
+        &mut session,
+        &[
+            // Nothing is left in the can, but the bowl takes 0.17 l more.
+            comes(pour_can, ToAsking),
+            comes(pour_cup, ToPass),
+            // 0.08 l are left in the cup, and the bowl takes no more.
+            comes(pour_cup, ToAsking),
+        ],
+    );
+    assert_eq!(feature(&session, object, "cup", "full-liquid"), 1.0);
+    assert_eq!(feature(&session, storage, "bowl", "full-liquid"), 1.0);
 }

@@ -8,6 +8,7 @@ mod lab;
 use std::time::Duration;
 
 use deictic::robot::{CommandId, Event, Refusal, Robot};
+use deictic::scene::Measures;
 use lab::bench::O;
 use lab::{Lab, NOW};
 
@@ -98,4 +99,30 @@ fn a_stop_ends_what_is_held() {
     assert!(matches!(lab.ending(), Event::Stopped { .. }));
     lab.begin("move-up", &[]).unwrap();
     assert!(matches!(lab.ending(), Event::Done(_)));
+}
+
+#[test]
+fn an_arm_is_told_what_it_carries_where_the_table_says_so() {
+    let mut lab = Lab::new();
+    let mass = |kilograms| Measures {
+        mass: Some(kilograms),
+        ..Measures::default()
+    };
+    let measures = [("can", 0.35), ("cube", 3.5)].map(|(n, kg)| (n.to_owned(), mass(kg)));
+    lab.bench.table = lab.bench.table.clone().with_measures(measures.into());
+    lab.begin("pick", &[(O, "can")]).unwrap();
+    assert!(matches!(lab.ending(), Event::Done(_)));
+    let told = lab.fer.state().loads.clone();
+    assert!(told.len() == 1 && (told[0] - 0.35).abs() < 1e-6, "{told:?}");
+    lab.begin("release", &[]).unwrap();
+    assert!(matches!(lab.ending(), Event::Done(_)));
+    assert_eq!(lab.fer.state().loads.last(), Some(&0.0));
+    // Nobody says what the cup weighs.
+    lab.begin("pick", &[(O, "cup")]).unwrap();
+    assert!(matches!(lab.ending(), Event::Done(_)));
+    assert_eq!(lab.fer.state().loads.len(), 2);
+    lab.begin("release", &[]).unwrap();
+    assert!(matches!(lab.ending(), Event::Done(_)));
+    let heavy = lab.begin("pick", &[(O, "cube")]);
+    assert_eq!(heavy, Err(Refusal::TooHeavy("cube".into())));
 }

@@ -45,7 +45,7 @@ fn the_same_key_at_both_ends_is_all_it_takes() {
         let (mut unit, lexicon) = connect(keys, keys).unwrap();
         let stop = lexicon.vocabulary().stop().unwrap();
         let sentence = deictic::answering::certainly(Category::ACTION, stop, &lexicon).unwrap();
-        unit.observe(sentence).unwrap();
+        unit.observe(&[sentence]).unwrap();
         let decided = (0..200).any(|_| {
             let events = unit.poll(Duration::from_millis(10));
             events

@@ -44,7 +44,7 @@ impl RobotSim {
     /// # Errors
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<()> {
-        let (lexicon, _) = self.files.read()?;
+        let (lexicon, table) = self.files.read()?;
         let listener = match self.listen.strip_suffix(":pty") {
             Some(kind @ ("serial" | "slcan")) => Listener::Pair {
                 pair: Pair::open().into_diagnostic()?,
@@ -53,7 +53,8 @@ impl RobotSim {
             _ => Listener::open(&self.listen.parse::<Way>().into_diagnostic()?)?,
         };
         let address = listener.address();
-        let end = End::new(Box::new(Sim::new(self.haste)), lexicon, boot());
+        let end = End::new(Box::new(Sim::new(self.haste)), lexicon, boot())
+            .with_measures(table.measures().clone());
         let mut served = Served::new(end, listener);
         if self.json {
             println!("{}", json!({ "event": "listening", "address": address }));

@@ -12,6 +12,9 @@ use super::{Refusal, Skill, World};
 /// How far the arm reaches from its base, in metres (Franka Emika Panda, data sheet).
 const REACH: f32 = 0.855;
 
+/// What it carries at most, in kilograms (the same).
+const PAYLOAD: f32 = 3.0;
+
 /// How far one motion goes at most, in metres.
 const FARTHEST: f32 = 0.5;
 
@@ -203,6 +206,10 @@ fn graspable<'a>(
     if feature(entity, "pickable", world) == Some(false) {
         let wanted = "pickable";
         return Err(Refusal::Unfit { thing, wanted });
+    }
+    let mass = world.table.measures().get(&thing).and_then(|m| m.mass);
+    if mass.is_some_and(|mass| mass > PAYLOAD) {
+        return Err(Refusal::TooHeavy(thing));
     }
     Ok((thing, entity))
 }

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::World;
+use super::liquid::Liquids;
 use super::task::{Effect, Place};
 use crate::scene::Change;
 
@@ -30,6 +31,7 @@ pub struct Hold {
     resting: BTreeMap<String, (String, &'static str)>,
     /// Half of how tall things are, in metres: how high their middle was when they were first seen.
     halves: BTreeMap<String, f32>,
+    liquids: Liquids,
     /// The places of the features this arm changes, as the vocabulary has them.
     features: BTreeMap<&'static str, usize>,
 }
@@ -52,6 +54,7 @@ impl Hold {
             let [.., z] = entity.position;
             self.halves.entry(name).or_insert(z.max(0.0));
         }
+        self.liquids.look(world);
     }
 
     /// Half of how tall a thing is, in metres; `otherwise` when it was never seen.
@@ -154,9 +157,14 @@ impl Hold {
                 changes.extend(self.set(&thing, "glued", 0.0));
                 changes.extend(self.set(&thing, "pickable", 1.0));
             }
-            Effect::Pour(from, into) => {
-                changes.extend(self.set(&from, "full-liquid", 0.0));
-                changes.extend(self.set(&into, "full-liquid", 1.0));
+            Effect::Pour(from, into, degrees) => {
+                let poured = self.liquids.pour(&from, &into, degrees);
+                if poured.empty {
+                    changes.extend(self.set(&from, "full-liquid", 0.0));
+                }
+                if poured.full {
+                    changes.extend(self.set(&into, "full-liquid", 1.0));
+                }
             }
         }
         changes.extend(self.carried(hand));

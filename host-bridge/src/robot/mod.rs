@@ -7,6 +7,7 @@ pub mod end;
 pub mod fci;
 mod given;
 mod hold;
+mod liquid;
 mod motion;
 pub mod panda;
 mod plan;

@@ -155,7 +155,7 @@ pub fn plan(task: &Task, hand: Place, held: bool) -> Vec<Step> {
             plan.fetch(thing, *at, held);
             plan.about.clone_from(into);
             plan.over(format!("move over the {into}"), *over);
-            let empties = Effect::Pour(thing.clone(), into.clone());
+            let empties = Effect::Pour(thing.clone(), into.clone(), *degrees);
             let lean = degrees / 180.0 * PI;
             let name = format!("tilt the {thing} by {degrees:.0} degrees");
             plan.lean(name, lean, empties);

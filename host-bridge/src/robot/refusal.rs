@@ -56,6 +56,9 @@ pub enum Refusal {
         /// What it would have to be.
         wanted: &'static str,
     },
+    /// A thing is heavier than the arm may carry.
+    #[error("the {0} is too heavy")]
+    TooHeavy(String),
     /// The hand holds something else.
     #[error("the hand holds the {0}")]
     Holding(String),
@@ -126,6 +129,7 @@ impl Refusal {
             Self::Full(thing) => format!("empty the {thing} first, or name another"),
             Self::Empty(_) => "name something that is full".into(),
             Self::Unfit { .. } => "name another".into(),
+            Self::TooHeavy(_) => "the arm carries at most 3 kg: name another".into(),
             Self::Holding(thing) => format!("put the {thing} somewhere, or say \"release\""),
             Self::NothingHeld => "pick something first".into(),
             Self::InTheWay(thing) => format!("move the {thing} away first, or go another way"),

@@ -114,6 +114,6 @@ pub enum Effect {
     Push(String, Place),
     /// The thing is loose.
     Loosen(String),
-    /// What was in the first is in the second.
-    Pour(String, String),
+    /// What is in the first runs into the second, as the first is tilted by so many degrees.
+    Pour(String, String, f32),
 }

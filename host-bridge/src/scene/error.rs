@@ -38,6 +38,14 @@ pub enum SceneProblem {
     /// A likelihood that is not in 0..=1.
     #[error("\"{0}\" is not a likelihood in 0..=1")]
     BadLikelihood(f32),
+    /// A measure that cannot be.
+    #[error("nothing on a table has {measure} = {value}")]
+    BadMeasure {
+        /// Which one.
+        measure: &'static str,
+        /// What was written.
+        value: f32,
+    },
     /// A line that is no JSON, or not of this shape.
     #[error("{0}")]
     Line(String),
@@ -97,6 +105,11 @@ impl Problem for SceneProblem {
             Self::NoPosition(_) => "give its place as [x, y, z] in metres".into(),
             Self::NotThere(_) => "ask with \"show\" for what is on the table".into(),
             Self::BadLikelihood(_) => "write a number from 0 to 1, or true or false".into(),
+            Self::BadMeasure { .. } => {
+                "`mass` is in kilograms, `holds` and `liquid` are in litres, and there is no more liquid in a thing than \
+                 it holds"
+                    .into()
+            }
             Self::Sensor(fault) => explain::fault(&Fault::Hand(*fault)).remedy,
             Self::Refused(error) => explain::scene_error(error).remedy,
         }

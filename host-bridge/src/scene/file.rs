@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::error::SceneProblem as Problem;
-use super::{TABLE, Tabletop};
+use super::{Measures, TABLE, Tabletop};
 use crate::diagnose::FileError;
 use crate::vocabulary::Lexicon;
 
@@ -87,6 +87,19 @@ struct Thing {
     position: [f32; 3],
     #[serde(default)]
     features: BTreeMap<Spanned<String>, Spanned<Likelihood>>,
+    mass: Option<f32>,
+    holds: Option<f32>,
+    liquid: Option<f32>,
+}
+
+impl Thing {
+    fn measures(&self) -> Measures {
+        Measures {
+            mass: self.mass,
+            holds: self.holds,
+            liquid: self.liquid,
+        }
+    }
 }
 
 /// How likely a feature is, as people write it.
@@ -198,13 +211,38 @@ impl SceneFile {
         Ok(checked.entities().to_vec())
     }
 
+    /// What the things it describes weigh and hold; a thing that is object and storage alike has what either says.
+    fn measures(&self) -> Result<BTreeMap<String, Measures>, SceneFileError> {
+        let mut all = BTreeMap::<String, Measures>::new();
+        for thing in self.written.object.iter().chain(&self.written.storage) {
+            let Measures {
+                mass,
+                holds,
+                liquid,
+            } = thing.as_ref().measures();
+            let known = all.entry(thing.as_ref().name.as_ref().clone()).or_default();
+            *known = Measures {
+                mass: mass.or(known.mass),
+                holds: holds.or(known.holds),
+                liquid: liquid.or(known.liquid),
+            };
+            known.check().map_err(|(measure, value)| {
+                let problem = Problem::BadMeasure { measure, value };
+                FileError::new(&self.name, &self.text, Some(thing.span()), problem)
+            })?;
+        }
+        all.retain(|_, measures| *measures != Measures::default());
+        Ok(all)
+    }
+
     /// The table it describes.
     ///
     /// # Errors
     /// [`SceneFileError`] with the place of the first thing that is wrong.
     pub fn tabletop(&self, lexicon: &Lexicon) -> Result<Tabletop, SceneFileError> {
         let table = Tabletop::new(self.things(lexicon)?, lexicon)
-            .map_err(|e| FileError::new(&self.name, &self.text, None, Problem::Refused(e)))?;
+            .map_err(|e| FileError::new(&self.name, &self.text, None, Problem::Refused(e)))?
+            .with_measures(self.measures()?);
         Ok(match &self.written.sensor {
             None => table,
             Some(sensor) => table.with_hand(sensor.as_ref().settings().map_err(|problem| {

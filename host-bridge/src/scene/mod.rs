@@ -4,7 +4,10 @@ mod error;
 pub mod feed;
 mod file;
 pub mod line;
+mod measures;
 pub mod watch;
+
+use std::collections::BTreeMap;
 
 use deictic_core::category::Category;
 use deictic_core::large;
@@ -16,6 +19,7 @@ use crate::vocabulary::Lexicon;
 pub use error::SceneProblem;
 pub use file::{Likelihood, SceneFile, SceneFileError};
 pub use line::SceneLine;
+pub use measures::Measures;
 
 /// The scene that comes with the program, for the tabletop vocabulary.
 pub const TABLE: &str = include_str!("../../data/scenes/table.toml");
@@ -47,6 +51,7 @@ pub enum Change {
 pub struct Tabletop {
     scene: large::Scene,
     hand: HandSettings,
+    measures: BTreeMap<String, Measures>,
 }
 
 impl Tabletop {
@@ -61,6 +66,7 @@ impl Tabletop {
         Ok(Self {
             scene: scene(1, things, lexicon)?,
             hand: HandSettings::DEFAULT,
+            measures: BTreeMap::new(),
         })
     }
 
@@ -77,6 +83,19 @@ impl Tabletop {
         self.hand
     }
 
+    /// The same table, with what things of these names weigh and hold.
+    #[must_use]
+    pub fn with_measures(mut self, measures: BTreeMap<String, Measures>) -> Self {
+        self.measures = measures;
+        self
+    }
+
+    /// What things weigh and hold, by their names, as it was when the table was first laid.
+    #[must_use]
+    pub fn measures(&self) -> &BTreeMap<String, Measures> {
+        &self.measures
+    }
+
     /// A table with these things under a version that somebody else counts.
     ///
     /// # Errors
@@ -89,6 +108,7 @@ impl Tabletop {
         Ok(Self {
             scene: scene(version, things, lexicon)?,
             hand: HandSettings::DEFAULT,
+            measures: BTreeMap::new(),
         })
     }
 

@@ -4,7 +4,9 @@
 //! not part of what it publishes.
 #![allow(dead_code)]
 
-use std::io::{Read, Write};
+#[path = "requests.rs"]
+mod requests;
+
 use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -12,6 +14,7 @@ use std::time::Duration;
 use franka::wire::HeaderLayout;
 use franka::wire::gripper::{GripperCommand, GripperStatus};
 use franka::wire::robot::v5;
+use requests::{receive, respond};
 use zerocopy::{FromBytes, IntoBytes};
 
 /// What goes wrong.
@@ -47,6 +50,8 @@ pub struct State {
     pub recovered: u32,
     pub collision_behaviour: u32,
     pub connections: u32,
+    /// What it was told that it carries, in kilograms, one after the other.
+    pub loads: Vec<f64>,
     mode: v5::RobotMode,
     reflex: Option<usize>,
     client: Option<SocketAddr>,
@@ -84,6 +89,7 @@ impl Fer {
                 recovered: 0,
                 collision_behaviour: 0,
                 connections: 0,
+                loads: Vec::new(),
                 mode: v5::RobotMode::Idle,
                 reflex: None,
                 client: None,
@@ -161,6 +167,11 @@ impl Fer {
             }
             v5::Command::SetCollisionBehavior => {
                 state.collision_behaviour += 1;
+                answer(stream, &[0]);
+            }
+            v5::Command::SetLoad => {
+                let mass = payload.first_chunk().copied().unwrap_or_default();
+                state.loads.push(f64::from_le_bytes(mass));
                 answer(stream, &[0]);
             }
             _ => answer(stream, &[0]),
@@ -291,20 +302,4 @@ impl State {
             respond(stream, HeaderLayout::Robot, command, id, &[status as u8]);
         }
     }
-}
-
-/// The next request: its command, its number, what it carries.
-fn receive(stream: &mut TcpStream, layout: HeaderLayout) -> Option<(u32, u32, Vec<u8>)> {
-    let mut header = vec![0; layout.header_len()];
-    stream.read_exact(&mut header).ok()?;
-    let (command, id, size) = layout.decode_header(&header)?;
-    let mut payload = vec![0; size as usize - layout.header_len()];
-    stream.read_exact(&mut payload).ok()?;
-    Some((command, id, payload))
-}
-
-fn respond(stream: &mut TcpStream, layout: HeaderLayout, command: u32, id: u32, payload: &[u8]) {
-    let mut message = layout.encode_header(command, id, payload.len());
-    message.extend_from_slice(payload);
-    let _ = stream.write_all(&message);
 }

@@ -10,8 +10,8 @@ use crate::process::{self, cargo};
 /// Try the robot's links on a real CAN interface of Linux.
 ///
 /// Makes a virtual interface where this machine's kernel has CAN; elsewhere boots a Linux of its own (Debian's
-/// user-mode-linux, with this machine's files read-only) and makes it there. The tests are those of `robot_can` and
-/// `robot_wires`; candump, cansend and slcand are the witnesses.
+/// user-mode-linux, with this machine's files read-only) and makes it there. The tests are those of `robot_can`,
+/// `robot_can_faults` and `robot_wires`; candump, cansend and slcand are the witnesses.
 #[derive(Args)]
 pub struct Can {
     /// Commands over every link whose acceptance is timed
@@ -19,7 +19,7 @@ pub struct Can {
     pub commands: u32,
 }
 
-const TESTS: [&str; 2] = ["robot_can", "robot_wires"];
+const TESTS: [&str; 3] = ["robot_can", "robot_can_faults", "robot_wires"];
 
 /// How long the guest may take, in seconds.
 const PATIENCE: u32 = 300;
@@ -89,7 +89,10 @@ fn build() -> Result<Vec<PathBuf>> {
     });
     let is_test = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        TESTS.iter().any(|test| name.starts_with(test))
+        // A dash and a digest follow.
+        TESTS
+            .iter()
+            .any(|test| name.rsplit_once('-').is_some_and(|(of, _)| of == *test))
     };
     let programs: Vec<_> = programs.filter(is_test).collect();
     ensure!(

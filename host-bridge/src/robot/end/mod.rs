@@ -19,7 +19,7 @@ use deictic_core::command::{BEAT, HOST_LOST, Packet};
 use deictic_core::time::Micros;
 
 use super::Robot;
-use crate::scene::Tabletop;
+use crate::scene::{Measures, Tabletop};
 use crate::vocabulary::Lexicon;
 
 use reading::Telling;
@@ -48,6 +48,7 @@ pub struct End {
     lexicon: Lexicon,
     boot: u16,
     table: Option<Tabletop>,
+    measures: BTreeMap<String, Measures>,
     telling: Option<Telling>,
     /// The run that it hears, and when it heard it last.
     host: Option<(u32, Micros)>,
@@ -68,6 +69,7 @@ impl End {
             lexicon,
             boot,
             table: None,
+            measures: BTreeMap::new(),
             telling: None,
             host: None,
             newest: BTreeMap::new(),
@@ -76,6 +78,13 @@ impl End {
             faulted: false,
             beat: Micros(0),
         }
+    }
+
+    /// What things weigh and hold, by their names; hosts do not tell it.
+    #[must_use]
+    pub fn with_measures(mut self, measures: BTreeMap<String, Measures>) -> Self {
+        self.measures = measures;
+        self
     }
 
     /// Takes a packet from the host; puts into `out` what there is to say.

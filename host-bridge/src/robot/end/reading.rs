@@ -52,6 +52,7 @@ impl End {
             return;
         };
         let table = Tabletop::numbered(telling.version, telling.entities, &self.lexicon);
+        let table = table.map(|table| table.with_measures(self.measures.clone()));
         self.table = table.ok().or(self.table.take());
     }
 }

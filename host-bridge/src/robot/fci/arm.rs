@@ -41,6 +41,12 @@ const STRIDE: f64 = 5e-3;
 /// How many states the hand may take to come to rest: one a millisecond.
 const SETTLING: usize = 500;
 
+/// How far the finger tips are from the flange, in metres (Franka Hand, data sheet).
+const TIPS: f64 = 0.1034;
+
+/// How large a thing in the hand is thought to be: a ball's radius, in metres.
+const BALL: f64 = 0.03;
+
 /// Where an arm is.
 #[derive(Clone, Debug)]
 pub(super) struct Host {
@@ -158,6 +164,18 @@ impl Arm {
             }
         }
         Err(FciFault::Missed(last * 1e3))
+    }
+
+    /// The hand carries so much from now on, in kilograms: the arm's controller makes up for its weight, and does not take
+    /// it for a collision. Thought of as a ball between the finger tips.
+    pub fn carries(&self, kilograms: f32) -> Result<(), FciFault> {
+        let mass = f64::from(kilograms);
+        let inertia = 0.4 * mass * BALL * BALL;
+        let mut about = [0.0; 9];
+        for axis in about.iter_mut().step_by(4) {
+            *axis = inertia;
+        }
+        Ok(self.robot.set_load(mass, [0.0, 0.0, TIPS], about)?)
     }
 
     /// Opens or shuts the fingers, or closes them on a thing about so wide.

@@ -9,7 +9,7 @@ mod brakes;
 mod fault;
 mod worker;
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Sender, channel};
@@ -21,10 +21,11 @@ use super::hold::Hold;
 use super::motion::{Kind, Motion, homewards, place, rehearse};
 use super::panda::Caps;
 use super::plan::plan;
+use super::task::Effect;
 use super::{Command, CommandId, Event, Posture, Refusal, Robot, Skill, Taken, World, check};
 use arm::{Arm, Host};
 pub use fault::FciFault;
-use worker::{Report, Shared};
+use worker::{Job, Report, Shared};
 
 /// The command that is being done.
 #[derive(Debug)]
@@ -39,8 +40,10 @@ struct Running {
 #[derive(Debug)]
 pub struct Fci {
     shared: Arc<Shared>,
-    jobs: Sender<Vec<Motion>>,
+    jobs: Sender<Vec<Job>>,
     hold: Hold,
+    /// What things weigh, in kilograms, as far as the table says.
+    masses: BTreeMap<String, f32>,
     given: Given,
     running: Option<Running>,
     /// Commands to stop, which are done when the arm stands.
@@ -74,6 +77,7 @@ impl Fci {
             shared,
             jobs,
             hold: Hold::default(),
+            masses: BTreeMap::new(),
             given: Given::default(),
             running: None,
             stops: Vec::new(),
@@ -91,11 +95,24 @@ impl Fci {
         self.shared.stop.store(false, Ordering::Relaxed);
         self.shared.hold.store(false, Ordering::Relaxed);
         let gone = || FciFault::Other("the thread that moves the arm is gone".into());
-        let sent = self.jobs.send(motions.clone());
+        let jobs = motions.iter().map(|motion| Job {
+            motion: motion.clone(),
+            load: self.load(&motion.effect),
+        });
+        let sent = self.jobs.send(jobs.collect());
         sent.map_err(|_| refusal(gone()))?;
         let at = 0;
         self.running = Some(Running { id, motions, at });
         Ok(Taken::Begun)
+    }
+
+    /// What the hand carries after this, in kilograms, where that is known.
+    fn load(&self, effect: &Effect) -> Option<f32> {
+        match effect {
+            Effect::Grasp(thing) => self.masses.get(thing).copied(),
+            Effect::LetGo | Effect::LeaveIn(..) if !self.masses.is_empty() => Some(0.0),
+            _ => None,
+        }
     }
 
     fn take(&mut self, report: Report) {
@@ -181,6 +198,9 @@ impl Robot for Fci {
         command.check_scene(world)?;
         let arm = self.shared.arm().map_err(refusal)?;
         self.hold.look(world);
+        let measures = world.table.measures().iter();
+        let masses = measures.filter_map(|(thing, m)| Some((thing.clone(), m.mass?)));
+        self.masses = masses.collect();
         let hand = place(&arm.stance.joints);
         let task = check::check(&self.hold, hand, skill, &command.intent, world)?;
         let held = self.hold.thing().is_some() && task.thing() == self.hold.thing();

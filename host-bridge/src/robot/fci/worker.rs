@@ -25,6 +25,13 @@ const CORRECTIONS: usize = 2;
 /// How far short of it that may be, in radians: more is an arm that something holds.
 const NEARLY: f64 = 0.2;
 
+/// A motion, and what the hand carries from its end on, in kilograms, where that is known and becomes different.
+#[derive(Clone, Debug)]
+pub(super) struct Job {
+    pub motion: Motion,
+    pub load: Option<f32>,
+}
+
 /// What has become of a command's motions.
 #[derive(Clone, Debug)]
 pub(super) enum Report {
@@ -126,7 +133,7 @@ impl Shared {
 
 /// Serves commands on `arm`, and on the next connection to `host` when that one breaks, until nobody
 /// can give any more.
-pub(super) fn serve(arm: Arm, host: &Host, inbox: &Receiver<Vec<Motion>>, shared: &Shared) {
+pub(super) fn serve(arm: Arm, host: &Host, inbox: &Receiver<Vec<Job>>, shared: &Shared) {
     let mut connected = Some(arm);
     loop {
         if let Some(arm) = connected.take() {
@@ -153,19 +160,19 @@ pub(super) fn serve(arm: Arm, host: &Host, inbox: &Receiver<Vec<Motion>>, shared
 }
 
 /// Serves commands until nobody can give any more; an error when the connection broke.
-fn attend(arm: &Arm, inbox: &Receiver<Vec<Motion>>, shared: &Shared) -> Result<(), FciFault> {
+fn attend(arm: &Arm, inbox: &Receiver<Vec<Job>>, shared: &Shared) -> Result<(), FciFault> {
     loop {
         match inbox.try_recv() {
             Err(TryRecvError::Disconnected) => return Ok(()),
             Err(TryRecvError::Empty) => shared.stands(arm.joints()?),
-            Ok(motions) => perform(arm, &motions, shared)?,
+            Ok(jobs) => perform(arm, &jobs, shared)?,
         }
     }
 }
 
 /// Does one command; an error only when the connection broke.
-fn perform(arm: &Arm, motions: &[Motion], shared: &Shared) -> Result<(), FciFault> {
-    for (i, motion) in motions.iter().enumerate() {
+fn perform(arm: &Arm, jobs: &[Job], shared: &Shared) -> Result<(), FciFault> {
+    for (i, Job { motion, load }) in jobs.iter().enumerate() {
         if shared.holding() {
             // The fingers were at it, which finish what they are at.
             shared.report(Report::Held);
@@ -179,7 +186,13 @@ fn perform(arm: &Arm, motions: &[Motion], shared: &Shared) -> Result<(), FciFaul
             return Ok(());
         }
         shared.report(Report::Begun(i));
-        match act(arm, motion, shared) {
+        let acted = act(arm, motion, shared).and_then(|stands| {
+            if let (Some(_), Some(kilograms)) = (stands, load) {
+                arm.carries(*kilograms)?;
+            }
+            Ok(stands)
+        });
+        match acted {
             Ok(Some(joints)) => {
                 shared.stands(joints);
                 shared.report(Report::Ended(i, joints));
