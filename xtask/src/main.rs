@@ -10,6 +10,7 @@
 //! | `test` | formatting, lints, all tests, both images, budgets |
 //! | `fci` | plays the session on an arm that speaks its own network interface (franka-sim) |
 //! | `can` | tries the robot's links on a real CAN bus, if need be in a Linux of its own |
+//! | `latency` | measures how soon a decision is accepted by a robot, over every link |
 //! | `fuzz` | fuzzes every door of core and bridge |
 //! | `interface` | sees that nothing in the core can panic or format |
 //! | `key` | makes a key for one board |
@@ -47,6 +48,7 @@ enum Command {
     Test(cmd::test::Test),
     Fci(cmd::fci::Fci),
     Can(cmd::can::Can),
+    Latency(cmd::latency::Latency),
     Fuzz(cmd::fuzz::Fuzz),
     Faults(cmd::faults::Faults),
     Key(cmd::key::MakeKey),
@@ -65,6 +67,7 @@ fn main() -> ExitCode {
         Command::Test(test) => test.run(),
         Command::Fci(fci) => fci.run(),
         Command::Can(can) => can.run(),
+        Command::Latency(latency) => latency.run(),
         Command::Fuzz(fuzz) => fuzz.run(),
         Command::Faults(faults) => faults.run(),
         Command::Key(key) => key.run(),

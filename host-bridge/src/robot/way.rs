@@ -108,7 +108,10 @@ pub fn reach(way: &Way, lexicon: &Lexicon) -> Result<Remote, ReachError> {
 }
 
 /// Opens the link to a robot.
-fn carrier(way: &Way) -> Result<Box<dyn Carrier>, WireError> {
+///
+/// # Errors
+/// [`WireError`] with what to do about it.
+pub fn carrier(way: &Way) -> Result<Box<dyn Carrier>, WireError> {
     let on_bus = |bus| Box::new(OnBus::new(bus, Sender::Host)) as Box<dyn Carrier>;
     match way {
         Way::Can(interface) => link::open_interface(interface).map(on_bus),

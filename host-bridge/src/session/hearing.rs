@@ -8,7 +8,7 @@ use deictic_core::protocol::hand::HandFault;
 use deictic_core::protocol::message::{Decided, Fault, RobotState, RobotStatus};
 use deictic_core::time::Micros;
 
-use super::{Doing, HANGING, Happening, Order, PATIENCE, Session, Work};
+use super::{Doing, HANGING, Happening, Order, PATIENCE, Session, Source};
 use crate::clock;
 use crate::deciding::heard;
 use crate::explain;
@@ -161,7 +161,7 @@ impl Session<'_> {
                 }
                 let doing = Doing {
                     id,
-                    work: Work::Decided { decision, intent },
+                    source: Some(Source { decision, intent }),
                     held: false,
                     relaid: false,
                     percent: 0,
@@ -197,10 +197,10 @@ impl Session<'_> {
 
     fn accepted(&mut self, id: CommandId) {
         let mine = self.doing.as_ref().filter(|d| d.id == id);
-        match mine.map(|doing| doing.work.clone()) {
+        match mine.map(|doing| doing.source.clone()) {
             None => {}
-            Some(Work::Home) => self.happened.push(Happening::Homing),
-            Some(Work::Decided { decision, intent }) => {
+            Some(None) => self.happened.push(Happening::Homing),
+            Some(Some(Source { decision, intent })) => {
                 self.happened.push(Happening::Accepted(intent));
                 self.report(decision, RobotState::Running(0));
             }
@@ -211,12 +211,12 @@ impl Session<'_> {
         let Some(doing) = self.doing.take_if(|d| d.id == id) else {
             return;
         };
-        match doing.work {
-            Work::Home => {
+        match doing.source {
+            None => {
                 let order = Order::Home;
                 self.happened.push(Happening::Declined { order, refusal });
             }
-            Work::Decided { decision, intent } => {
+            Some(Source { decision, intent }) => {
                 self.happened.push(Happening::Refused { intent, refusal });
                 self.report(decision, RobotState::Refused);
             }
@@ -230,9 +230,12 @@ impl Session<'_> {
             robot::Event::Accepted(_) | robot::Event::Refused { .. } => {}
             robot::Event::Begun { id, .. } => {
                 let mine = self.doing.as_ref().filter(|d| d.id == id);
-                if let Some(work) = mine.map(|doing| doing.work.clone()) {
+                let decision = mine
+                    .and_then(|doing| doing.source.as_ref())
+                    .map(|s| s.decision);
+                if let Some(decision) = decision {
                     let percent = self.robot.progress(now).map_or(0, |(_, p)| p);
-                    self.report_on(&work, RobotState::Running(percent));
+                    self.report(decision, RobotState::Running(percent));
                 }
             }
             robot::Event::Held(id) | robot::Event::Resumed(id) => {
@@ -287,13 +290,9 @@ impl Session<'_> {
             if state != RobotState::Done {
                 self.drop_queue();
             }
-            self.report_on(&doing.work, state);
-        }
-    }
-
-    fn report_on(&mut self, work: &Work, state: RobotState) {
-        if let Work::Decided { decision, .. } = work {
-            self.report(*decision, state);
+            if let Some(source) = doing.source {
+                self.report(source.decision, state);
+            }
         }
     }
 

@@ -46,19 +46,18 @@ pub const ANSWER_WEIGHT: f32 = 10.0;
 /// longest motion of a careful arm.
 const HANGING: Duration = Duration::from_secs(60);
 
-/// What a command comes from.
+/// The decision that a command comes from.
 #[derive(Clone, Debug)]
-enum Work {
-    /// The unit has decided so.
-    Decided { decision: u32, intent: Intent },
-    /// The person has sent the arm home.
-    Home,
+struct Source {
+    decision: u32,
+    intent: Intent,
 }
 
 /// A command that the robot is doing.
 struct Doing {
     id: CommandId,
-    work: Work,
+    /// None of a way home, which the person has asked for.
+    source: Option<Source>,
     /// Whether it is held.
     held: bool,
     /// Whether others have changed the table since it began.

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::{Doing, Happening, Session, Work};
+use super::{Doing, Happening, Session};
 use crate::clock;
 use crate::robot::{CommandId, Refusal, Taken};
 
@@ -82,7 +82,7 @@ impl Session<'_> {
         }
         self.doing = Some(Doing {
             id,
-            work: Work::Home,
+            source: None,
             held: false,
             relaid: false,
             percent: 0,

@@ -20,9 +20,12 @@ enum Socket {
     Terminal(PathBuf),
 }
 
+/// What is plugged in, and the pseudo-terminal that it lives as long as.
+type Plug = (Box<dyn Wire>, Option<Pair>);
+
 impl Socket {
     /// Something to plug in; `None` when nobody has come.
-    fn open(&self) -> io::Result<Option<(Box<dyn Wire>, Option<Pair>)>> {
+    fn open(&self) -> io::Result<Option<Plug>> {
         match self {
             Self::Port(port) => match port.accept() {
                 Ok((stream, _)) => Ok(Some((link::over(stream).map_err(io::Error::other)?, None))),

@@ -11,15 +11,16 @@ use crate::process::{self, cargo};
 ///
 /// Makes a virtual interface where this machine's kernel has CAN; elsewhere boots a Linux of its own (Debian's
 /// user-mode-linux, with this machine's files read-only) and makes it there. The tests are those of `robot_can`,
-/// `robot_can_faults` and `robot_wires`; candump, cansend and slcand are the witnesses.
+/// `robot_can_faults`, `robot_wires` and `robot_latency`; candump, cansend and slcand are the witnesses.
 #[derive(Args)]
-pub struct Can {
-    /// Commands over every link whose acceptance is timed
-    #[arg(long, default_value_t = 500)]
-    pub commands: u32,
-}
+pub struct Can;
 
-const TESTS: [&str; 3] = ["robot_can", "robot_can_faults", "robot_wires"];
+const TESTS: [&str; 4] = [
+    "robot_can",
+    "robot_can_faults",
+    "robot_wires",
+    "robot_latency",
+];
 
 /// How long the guest may take, in seconds.
 const PATIENCE: u32 = 300;
@@ -29,44 +30,39 @@ impl Can {
         if !guest::is_possible() {
             bail!("{}", guest::MISSING);
         }
-        let tests = build()?;
+        let tests = build(&TESTS)?;
         if has_can() {
-            self.here(&tests)
+            here(&tests)
         } else {
-            self.in_a_guest(&tests)
+            in_a_guest(&tests)
         }
-    }
-
-    fn here(&self, tests: &[PathBuf]) -> Result<()> {
-        eprintln!("on this machine's {INTERFACE}");
-        for test in tests {
-            let mut command = Command::new(test);
-            command.args(["--nocapture", "--test-threads", "1"]);
-            command.env("DEICTIC_CAN", INTERFACE);
-            command.env("DEICTIC_COMMANDS", self.commands.to_string());
-            process::run(&mut command)?;
-        }
-        Ok(())
-    }
-
-    fn in_a_guest(&self, tests: &[PathBuf]) -> Result<()> {
-        eprintln!("in a Linux of its own, as this kernel has no CAN");
-        let tests: Vec<String> = tests
-            .iter()
-            .map(|test| format!("'{}' --nocapture --test-threads 1", test.display()))
-            .collect();
-        let lines = format!(
-            "export DEICTIC_CAN={INTERFACE} DEICTIC_COMMANDS={}\n{}",
-            self.commands,
-            tests.join(" && ")
-        );
-        println!("{}", guest::run(&lines, None, PATIENCE)?);
-        Ok(())
     }
 }
 
-/// Builds the tests; gives their programs.
-fn build() -> Result<Vec<PathBuf>> {
+fn here(tests: &[PathBuf]) -> Result<()> {
+    eprintln!("on this machine's {INTERFACE}");
+    for test in tests {
+        let mut command = Command::new(test);
+        command.args(["--nocapture", "--test-threads", "1"]);
+        command.env("DEICTIC_CAN", INTERFACE);
+        process::run(&mut command)?;
+    }
+    Ok(())
+}
+
+fn in_a_guest(tests: &[PathBuf]) -> Result<()> {
+    eprintln!("in a Linux of its own, as this kernel has no CAN");
+    let tests: Vec<String> = tests
+        .iter()
+        .map(|test| format!("'{}' --nocapture --test-threads 1", test.display()))
+        .collect();
+    let lines = format!("export DEICTIC_CAN={INTERFACE}\n{}", tests.join(" && "));
+    println!("{}", guest::run(&lines, None, PATIENCE)?);
+    Ok(())
+}
+
+/// Builds tests of the bridge; gives their programs.
+pub fn build(tests: &[&str]) -> Result<Vec<PathBuf>> {
     let mut command = cargo();
     command.args([
         "test",
@@ -76,7 +72,7 @@ fn build() -> Result<Vec<PathBuf>> {
         "--message-format",
         "json",
     ]);
-    for test in TESTS {
+    for test in tests {
         command.args(["--test", test]);
     }
     let output = command.stderr(Stdio::inherit()).output()?;
@@ -96,7 +92,7 @@ fn build() -> Result<Vec<PathBuf>> {
     };
     let programs: Vec<_> = programs.filter(is_test).collect();
     ensure!(
-        programs.len() == TESTS.len(),
+        programs.len() == tests.len(),
         "cargo names other tests: {programs:?}"
     );
     Ok(programs)

@@ -10,6 +10,7 @@ pub mod firmware;
 pub mod fuzz;
 pub mod interface;
 pub mod key;
+pub mod latency;
 pub mod qemu;
 pub mod setup;
 pub mod test;

@@ -56,7 +56,7 @@ impl Test {
         board::check_interface(&toolchain)?;
         step("the robot's links on a CAN bus");
         if guest::is_possible() {
-            Can { commands: 500 }.run()?;
+            Can.run()?;
         } else {
             eprintln!("skipped: {}", guest::MISSING);
         }

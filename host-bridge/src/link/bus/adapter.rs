@@ -3,12 +3,13 @@
 
 use std::collections::VecDeque;
 use std::io;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use deictic_core::can::Frame;
 use deictic_core::slcan::{self, Wanted, line};
 
 use super::Bus;
+use super::reading::Reads;
 use crate::link::Wire;
 
 /// A node behind such a line.
@@ -28,6 +29,12 @@ impl Adapter {
             arrived: VecDeque::new(),
         }
     }
+}
+
+impl Reads for Adapter {
+    fn wire(&mut self) -> &mut dyn Wire {
+        self.wire.as_mut()
+    }
 
     fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
         let mut answers = Vec::new();
@@ -46,6 +53,10 @@ impl Adapter {
             self.wire.write(&answers)
         }
     }
+
+    fn arrived(&mut self) -> &mut VecDeque<Frame> {
+        &mut self.arrived
+    }
 }
 
 impl Bus for Adapter {
@@ -59,18 +70,6 @@ impl Bus for Adapter {
     }
 
     fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>> {
-        let until = Instant::now() + patience;
-        let mut buffer = [0; 512];
-        loop {
-            if let Some(frame) = self.arrived.pop_front() {
-                return Ok(Some(frame));
-            }
-            let left = until.saturating_duration_since(Instant::now());
-            let read = self.wire.read(&mut buffer, left)?;
-            self.take(buffer.get(..read).unwrap_or(&[]))?;
-            if read == 0 && self.arrived.is_empty() && Instant::now() >= until {
-                return Ok(None);
-            }
-        }
+        self.next(patience)
     }
 }

@@ -2,11 +2,12 @@
 
 use std::collections::VecDeque;
 use std::io;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use deictic_core::can::Frame;
 use deictic_core::slcan::{Heard, Lines, line};
 
+use super::reading::Reads;
 use super::{Bus, BusFault};
 use crate::link::Wire;
 
@@ -56,8 +57,14 @@ impl Client {
     pub fn damaged(&self) -> u64 {
         self.damaged
     }
+}
 
-    fn hear(&mut self, bytes: &[u8]) -> io::Result<()> {
+impl Reads for Client {
+    fn wire(&mut self) -> &mut dyn Wire {
+        self.wire.as_mut()
+    }
+
+    fn take(&mut self, bytes: &[u8]) -> io::Result<()> {
         for &byte in bytes {
             match self.lines.hear(byte) {
                 None => {}
@@ -77,6 +84,10 @@ impl Client {
         }
         Ok(())
     }
+
+    fn arrived(&mut self) -> &mut VecDeque<Frame> {
+        &mut self.arrived
+    }
 }
 
 impl Bus for Client {
@@ -84,7 +95,7 @@ impl Bus for Client {
         let mut buffer = [0; 512];
         while self.acknowledges && self.on_the_way >= ON_THE_WAY {
             let read = self.wire.read(&mut buffer, ACKNOWLEDGES)?;
-            self.hear(buffer.get(..read).unwrap_or(&[]))?;
+            self.take(buffer.get(..read).unwrap_or(&[]))?;
             self.acknowledges = read > 0;
         }
         self.on_the_way = self.on_the_way.saturating_add(1);
@@ -92,18 +103,6 @@ impl Bus for Client {
     }
 
     fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>> {
-        let until = Instant::now() + patience;
-        let mut buffer = [0; 512];
-        loop {
-            if let Some(frame) = self.arrived.pop_front() {
-                return Ok(Some(frame));
-            }
-            let left = until.saturating_duration_since(Instant::now());
-            let read = self.wire.read(&mut buffer, left)?;
-            self.hear(buffer.get(..read).unwrap_or(&[]))?;
-            if read == 0 && self.arrived.is_empty() && Instant::now() >= until {
-                return Ok(None);
-            }
-        }
+        self.next(patience)
     }
 }

@@ -3,6 +3,7 @@
 mod adapter;
 mod client;
 mod node;
+mod reading;
 #[cfg(target_os = "linux")]
 mod socket;
 
