@@ -39,10 +39,25 @@ pub enum Reason {
     Doubtful,
 }
 
+/// What kind of answer is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    /// An option of the category.
+    Which,
+    /// Yes or no to the whole likeliest intent, [`Decision::best`].
+    Confirm,
+    /// Everything once more; what was said and shown stays.
+    Again,
+}
+
 /// A question about one category.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
-    /// What is asked for.
+    /// What kind of answer is asked for.
+    pub kind: Kind,
+    /// The action that it is about; `None` when the action itself is asked for.
+    pub action: Option<u8>,
+    /// What is asked for; of a yes or no what is most in doubt.
     pub category: Category,
     /// Why.
     pub reason: Reason,
@@ -59,6 +74,8 @@ pub enum Outcome<const C: usize> {
     Ask(Question),
     /// Nothing was understood: ask for a repetition.
     Repeat,
+    /// As many questions as may be were asked, and it still is not clear: the person has to start over.
+    GiveUp,
 }
 
 /// What to do now, and the likeliest intent whatever its clarity.
@@ -172,6 +189,8 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
             return Outcome::Repeat;
         }
         Outcome::Ask(Question {
+            kind: Kind::Which,
+            action: None,
             category: Category::ACTION,
             reason: Reason::Missing,
             candidates: Vec::new(),
@@ -228,7 +247,7 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
         } else {
             return Ok(());
         };
-        Err(Doubt::Ask(self.question(Category::ACTION, reason)))
+        Err(Doubt::Ask(self.among(None, Category::ACTION, reason)))
     }
 
     /// What the penalties left of an action's merged likelihood.
@@ -261,10 +280,10 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
                 continue;
             };
             if word.judgement.clear == 0 {
-                return Some(self.question(category, Reason::NoneClear));
+                return Some(self.among(Some(intent.action), category, Reason::NoneClear));
             }
             if word.judgement.lead <= self.profile.lead {
-                return Some(self.question(category, Reason::TooClose));
+                return Some(self.among(Some(intent.action), category, Reason::TooClose));
             }
             if let Some(reason) = self.thing_doubt(intent.action, category, best) {
                 return Some(self.about(intent.action, category, reason));
@@ -296,8 +315,10 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
     }
 
     /// A question about the options of a category that are in doubt, most likely first.
-    fn question(&self, category: Category, reason: Reason) -> Question {
+    fn among(&self, action: Option<u8>, category: Category, reason: Reason) -> Question {
         let mut question = Question {
+            kind: Kind::Which,
+            action,
             category,
             reason,
             candidates: Vec::new(),
@@ -318,6 +339,8 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N,
     /// A question about which thing an action is to be done to: the fit ones, most likely first.
     fn about(&self, action: u8, category: Category, reason: Reason) -> Question {
         let mut question = Question {
+            kind: Kind::Which,
+            action: Some(action),
             category,
             reason,
             candidates: Vec::new(),

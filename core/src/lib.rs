@@ -37,6 +37,7 @@ pub mod align;
 pub mod can;
 pub mod capacity;
 pub mod category;
+pub mod clarify;
 pub mod command;
 pub mod decide;
 pub mod entropy;

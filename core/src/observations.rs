@@ -2,7 +2,11 @@
 
 use core::borrow::Borrow;
 
-use crate::sentence::{MODALITIES, Sentence, SentenceError};
+use heapless::Vec;
+
+use crate::clarify::{Confirmation, QUESTIONS};
+use crate::math::clamp_unit;
+use crate::sentence::{ANSWER, MODALITIES, Sentence, SentenceError};
 use crate::vocabulary::Vocabulary;
 
 /// At most one checked sentence per modality: all that one decision draws on.
@@ -11,6 +15,10 @@ pub struct Observations<const W: usize, const C: usize, const N: usize> {
     sentences: [Sentence<W, C, N>; MODALITIES],
     /// The modalities that are there, one bit each.
     there: u8,
+    /// What was said to yes-or-no questions.
+    confirmations: Vec<Confirmation, QUESTIONS>,
+    /// How many questions were answered.
+    answers: u8,
 }
 
 impl<const W: usize, const C: usize, const N: usize> Default for Observations<W, C, N> {
@@ -26,6 +34,8 @@ impl<const W: usize, const C: usize, const N: usize> Observations<W, C, N> {
         Self {
             sentences: [const { Sentence::new(0) }; MODALITIES],
             there: 0,
+            confirmations: Vec::new(),
+            answers: 0,
         }
     }
 
@@ -51,28 +61,52 @@ impl<const W: usize, const C: usize, const N: usize> Observations<W, C, N> {
         Ok(())
     }
 
-    /// Appends a sentence's words to those that are there of `modality`, whichever it is of.
+    /// Adds an answer's words to those of earlier answers ([`ANSWER`]), whichever modality it is of.
     ///
     /// # Errors
-    /// [`SentenceError`]; the words before the one that did not fit have been appended.
-    pub fn append<const F: usize>(
+    /// [`SentenceError`]; the words before the one that did not fit have been added.
+    pub fn answer<const F: usize>(
         &mut self,
-        modality: u8,
         sentence: &Sentence<W, C, N>,
         vocabulary: &Vocabulary<N, C, F>,
     ) -> Result<(), SentenceError> {
         sentence.check(vocabulary)?;
-        let there = self.there & bit(modality) != 0;
-        let place = self.place(modality)?;
+        let there = self.there & bit(ANSWER) != 0;
+        let place = self.place(ANSWER)?;
         if !there {
-            place.restart(modality);
+            place.restart(ANSWER);
         }
         sentence
             .words()
             .iter()
             .try_for_each(|word| place.push(word.clone()))?;
-        self.there |= bit(modality);
+        self.there |= bit(ANSWER);
+        self.answers = self.answers.saturating_add(1);
         Ok(())
+    }
+
+    /// Adds what was said to a yes-or-no question; likelihoods that are no numbers count as 0. What is
+    /// beyond [`QUESTIONS`] is left out.
+    pub fn confirm(&mut self, confirmation: Confirmation) {
+        let likelihoods = confirmation.likelihoods.map(clamp_unit);
+        // No more are asked than there is room for.
+        let _ = self.confirmations.push(Confirmation {
+            likelihoods,
+            ..confirmation
+        });
+        self.answers = self.answers.saturating_add(1);
+    }
+
+    /// What was said to yes-or-no questions.
+    #[must_use]
+    pub fn confirmations(&self) -> &[Confirmation] {
+        &self.confirmations
+    }
+
+    /// How many questions were answered.
+    #[must_use]
+    pub fn answers(&self) -> u8 {
+        self.answers
     }
 
     fn place(&mut self, modality: u8) -> Result<&mut Sentence<W, C, N>, SentenceError> {
@@ -88,6 +122,8 @@ impl<const W: usize, const C: usize, const N: usize> Observations<W, C, N> {
             .iter_mut()
             .for_each(|sentence| sentence.restart(0));
         self.there = 0;
+        self.confirmations.clear();
+        self.answers = 0;
     }
 
     /// The modalities that are there, one bit each.

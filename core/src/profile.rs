@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::clarify::QUESTIONS;
 use crate::joint::calibration::RISKS;
 use crate::merge::Merge;
 use crate::sentence::{LANGUAGE, MODALITIES};
@@ -138,6 +139,9 @@ pub struct Profile {
     /// is asked about instead of executed. The paper normalises what is left, so that the least
     /// impossible action can look certain.
     pub guarded: bool,
+    /// How many questions the joint model may ask about one command, 0..=4; the others ask as long as
+    /// they are answered.
+    pub questions: u8,
     /// Two habits of the reference that the paper does not have: see [`crate::reference`].
     pub reference_quirks: bool,
 }
@@ -158,6 +162,7 @@ impl Profile {
         least_h: 0.01,
         several_clear: SeveralClear::Ask,
         guarded: true,
+        questions: 2,
         reference_quirks: false,
     };
 
@@ -267,6 +272,9 @@ impl Profile {
         if !(positive(self.least_h) && self.least_h >= LEAST_H) {
             return Err(ProfileError::LeastH);
         }
+        if usize::from(self.questions) > QUESTIONS {
+            return Err(ProfileError::Questions);
+        }
         let whole = self.model == Model::Joint;
         match self.threshold {
             Threshold::Risk { .. } if !whole => Err(ProfileError::ModelAndThreshold),
@@ -313,6 +321,8 @@ pub enum ProfileError {
     ModelAndThreshold,
     /// The tolerated risk must be below 1, and no smaller than the smallest that there is a cut for.
     Risk,
+    /// At most [`QUESTIONS`] questions can be asked about a command.
+    Questions,
 }
 
 const _: () = assert!(

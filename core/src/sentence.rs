@@ -258,6 +258,8 @@ pub const MODALITIES: usize = 4;
 pub const GESTURE: u8 = 0;
 /// What was said or typed.
 pub const LANGUAGE: u8 = 1;
+/// What was answered to questions: fused with what they were asked about.
+pub const ANSWER: u8 = 3;
 
 #[cfg(test)]
 mod tests {

@@ -6,7 +6,7 @@ mod common;
 use common::*;
 use deictic_core::board::{ToHost, ToUnit, Word};
 use deictic_core::category::Category;
-use deictic_core::decide::{Decision, Outcome, Question, Reason};
+use deictic_core::decide::{Decision, Kind, Outcome, Question, Reason};
 use deictic_core::gesture::counters::SampleCounters;
 use deictic_core::gesture::frame::Side;
 use deictic_core::gesture::mapping::{Gesture, MappingError};
@@ -253,6 +253,8 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
     };
     let three = |a: f32| [a, 0.5, 1.0].into_iter().collect();
     let question = Question {
+        kind: Kind::Which,
+        action: None,
         category: Category::OBJECT,
         reason: Reason::Infeasible,
         candidates: [CAN, BOX].into_iter().collect(),

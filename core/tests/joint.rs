@@ -8,6 +8,7 @@ use deictic_core::category::Category;
 use deictic_core::decide::{Decision, Outcome, Reason};
 use deictic_core::fuse::{Situation, fuse};
 use deictic_core::joint::Tables;
+use deictic_core::joint::belief::Look;
 use deictic_core::profile::{Model, Profile, ProfileError, Threshold};
 use proptest::prelude::*;
 
@@ -103,7 +104,7 @@ proptest! {
         let vocabulary = vocabulary();
         let (decision, trace) = decide_joint(&vocabulary, &scene, &[a, b], Tables::NONE);
         if let Outcome::Execute(intent) = decision.outcome {
-            prop_assert!(trace.belief.suffices(0.01));
+            prop_assert!(trace.belief.suffices(0.01, Look::Early));
             let action = vocabulary.actions()[usize::from(intent.action)];
             for q in action.signature.compulsory.iter() {
                 let category = Category::from_index(q).unwrap();

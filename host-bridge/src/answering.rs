@@ -95,11 +95,13 @@ pub fn certainly(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use deictic_core::decide::Reason;
+    use deictic_core::decide::{Kind, Reason};
     use deictic_core::math::argmax;
 
     fn ask(category: Category, candidates: &[u8]) -> Question {
         Question {
+            kind: Kind::Which,
+            action: None,
             category,
             reason: Reason::SeveralClear,
             candidates: candidates.iter().copied().collect(),

@@ -85,6 +85,7 @@ pub fn decision(
         Outcome::Execute(what) => ("execute", Some(intent(what, lexicon)), None),
         Outcome::Ask(q) => ("ask", None, Some(question(q, best, heard, scene, lexicon))),
         Outcome::Repeat => ("repeat", None, None),
+        Outcome::GiveUp => ("give-up", None, None),
     };
     DecisionReport {
         outcome,

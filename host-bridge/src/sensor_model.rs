@@ -6,8 +6,8 @@ use deictic_core::joint::Sensors;
 use deictic_core::joint::sensors::{SensorError, quantise};
 use deictic_core::large;
 use deictic_core::protocol::message::{SensorPart, SensorRow};
+use deictic_core::sentence::ANSWER;
 use deictic_core::sentence::{GESTURE, LANGUAGE};
-use deictic_core::unit::pairing::ANSWER;
 
 use crate::vocabulary::Lexicon;
 

@@ -8,11 +8,36 @@
 
 use super::calibration::{CUTS, OFFSET, RISKS, SLOPE};
 use super::{LEVELS, Levels};
+use crate::clarify::calibration::{EARLY, LAST};
 use crate::math::{self, clamp_unit, larger};
 
 /// No logit counts beyond this: what a posterior of 0.99988 has, and about what thousands of
 /// samples can tell.
 const FARTHEST: f32 = 9.0;
+
+/// Which of its looks at a command a decision is. Each is a chance to be wrong, and a command counts as
+/// wrong when one of them is, so that their cuts go together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// The only one: no question can be asked.
+    Only,
+    /// More can follow.
+    Early,
+    /// The last of several.
+    Last,
+}
+
+impl Look {
+    /// The look after which `left` of `questions` can still be asked.
+    #[must_use]
+    pub fn of(questions: u8, left: u8) -> Self {
+        match (questions, left) {
+            (0, _) => Self::Only,
+            (_, 0) => Self::Last,
+            _ => Self::Early,
+        }
+    }
+}
 
 /// What the joint model believes of its best intent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,9 +73,14 @@ impl Belief {
     /// wrongly: that of the largest risk in [`RISKS`] that is no larger, out of reach when there is
     /// none.
     #[must_use]
-    pub fn cut(&self, risk: f32) -> f32 {
+    pub fn cut(&self, risk: f32, look: Look) -> f32 {
+        let cuts = match look {
+            Look::Only => &CUTS,
+            Look::Early => &EARLY,
+            Look::Last => &LAST,
+        };
         let mut cut = f32::INFINITY;
-        for (known, knots) in RISKS.iter().zip(&CUTS) {
+        for (known, knots) in RISKS.iter().zip(cuts) {
             if *known <= risk {
                 cut = between(knots, self.noise);
             }
@@ -60,8 +90,8 @@ impl Belief {
 
     /// Whether the confidence suffices for a risk.
     #[must_use]
-    pub fn suffices(&self, risk: f32) -> bool {
-        self.logit() >= self.cut(risk)
+    pub fn suffices(&self, risk: f32, look: Look) -> bool {
+        self.logit() >= self.cut(risk, look)
     }
 }
 

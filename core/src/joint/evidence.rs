@@ -13,8 +13,9 @@ use super::survey::{Fits, Row, Survey, Thing};
 use super::word::{self, DEAREST, Element, Reading, Room};
 use super::{LEVELS, Levels};
 use crate::category::{Category, CategorySet};
+use crate::clarify::{Confirmation, Heard, QUESTIONS};
 use crate::scene::Scene;
-use crate::sentence::Word;
+use crate::sentence::{ANSWER, Word};
 use crate::trace::CategoryTrace;
 use crate::vocabulary::Vocabulary;
 
@@ -106,6 +107,12 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
     pub(super) fn note(&mut self, present: &[f32], spoken: CategorySet) {
         self.spoken = self.spoken.union(spoken);
         self.presence.note(present);
+    }
+
+    /// Notes that a person answered with a word of a category.
+    pub(super) fn note_answer(&mut self, category: Category) {
+        self.spoken = self.spoken.with(category.index());
+        self.presence.note_answer(category);
     }
 
     /// Finds what the scene allows, given which categories were spoken of; leaves in the trace's
@@ -261,10 +268,12 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
         self.named.get(category.index()).map_or(&[], |named| named)
     }
 
-    /// The best intent; its marginals go to the merged words.
+    /// The best intent, after what was said to yes-or-no questions; its marginals go to the merged
+    /// words.
     pub(crate) fn solve<const F: usize>(
         &mut self,
         vocabulary: &Vocabulary<N, C, F>,
+        confirmations: &[Confirmation],
         categories: &mut [CategoryTrace<N>; C],
     ) -> Option<Found> {
         let [actions, objects, storages, others @ ..] = &self.words[..] else {
@@ -313,7 +322,20 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
             return None;
         };
         let mut marginals = [marginal(action), marginal(object), marginal(storage)];
-        let found = posterior.solve(self.work.weighed.as_flattened_mut(), &mut marginals)?;
+        let found = if confirmations.is_empty() {
+            posterior.solve(self.work.weighed.as_flattened_mut(), &mut marginals)?
+        } else {
+            let heard = confirmations.iter().map(|answer| {
+                let [it, others] = yes_or_no(answer.likelihoods);
+                Heard {
+                    asked: answer.asked,
+                    it,
+                    others,
+                }
+            });
+            let heard: Vec<Heard, QUESTIONS> = heard.take(QUESTIONS).collect();
+            posterior.revise(&heard, &mut marginals)?
+        };
         for ((costs, trace), q) in others.iter().zip(traces).zip(3_usize..) {
             if trace.options > 0 {
                 independent(
@@ -326,6 +348,27 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
         }
         Some(found)
     }
+}
+
+/// What a word of two options costs each of them.
+#[inline(never)]
+fn yes_or_no(likelihoods: [f32; 2]) -> [Costs; 2] {
+    let mut costs = [Costs::ZERO; 2];
+    let mut room = Room {
+        elements: &mut [Element::NONE; 2],
+        sums: &mut [Costs::ZERO; 2],
+        raised: &mut [],
+        named: &mut [],
+    };
+    let reading = Reading {
+        likelihoods: &likelihoods,
+        rows: Tables::NONE.rows(ANSWER, Category::ACTION, 2),
+        live: &[0, 1],
+        weight: word::in_256ths(1.0),
+        first: true,
+    };
+    word::parameter(&reading, &mut room, &mut costs);
+    costs
 }
 
 /// Makes a list of the options that are flagged.

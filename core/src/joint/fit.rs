@@ -49,6 +49,16 @@ impl<const C: usize> Presence<C> {
         note(present, &mut self.needed, &mut self.foreign);
     }
 
+    /// Adds that a word of this category was answered: it speaks against actions that do not take it,
+    /// and says nothing of other categories.
+    pub fn note_answer(&mut self, category: Category) {
+        if category != Category::ACTION
+            && let Some(foreign) = self.foreign.get_mut(category.index())
+        {
+            *foreign = foreign.saturating_add(SURPLUS_COST);
+        }
+    }
+
     /// What all that was noted costs every action.
     pub fn costs(&self, actions: &[Action], prior: &mut [u16]) {
         costs(&self.needed, &self.foreign, actions, prior);

@@ -30,7 +30,7 @@ use crate::decide::Decision;
 use crate::fuse::Situation;
 use crate::math::larger;
 use crate::profile::{Profile, ProfileError};
-use crate::sentence::{MODALITIES, Word};
+use crate::sentence::{ANSWER, MODALITIES, Word};
 use crate::trace::Trace;
 use crate::vocabulary::Vocabulary;
 
@@ -94,6 +94,15 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
     let used = vocabulary.options().len();
     let mut said = [[None; C]; MODALITIES];
     for sentence in observations.iter() {
+        if sentence.modality() == ANSWER {
+            for q in sentence.words().iter().filter_map(Word::category) {
+                if let Some(word) = categories.get_mut(q.index()) {
+                    word.present = 1.0;
+                }
+                evidence.note_answer(q);
+            }
+            continue;
+        }
         let Some(said) = said.get_mut(usize::from(sentence.modality())) else {
             continue;
         };
@@ -130,7 +139,18 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
             }
         }
     }
-    let found = evidence.solve(vocabulary, categories);
+    if let Some(answers) = observations.get(ANSWER) {
+        for word in answers.words() {
+            if let Some(category) = word.category() {
+                let weight = profile.weight(ANSWER);
+                evidence.hear(vocabulary, sensors, ANSWER, category, word, weight);
+                if let Some(trace) = categories.get_mut(category.index()) {
+                    trace.quantity = word.quantity().or(trace.quantity);
+                }
+            }
+        }
+    }
+    let found = evidence.solve(vocabulary, observations.confirmations(), categories);
     Ok(outcome::outcome(situation, profile, found, trace))
 }
 

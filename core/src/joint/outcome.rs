@@ -3,11 +3,14 @@
 
 use heapless::Vec;
 
+use super::belief::Look;
 use super::cost::OCTAVE;
 use super::fit::product;
 use super::posterior::Found;
 use crate::category::Category;
-use crate::decide::{CANDIDATES, Decision, FEASIBLE, Outcome, Question, Reason, name};
+use crate::clarify::answered;
+use crate::clarify::choose::{about, choose};
+use crate::decide::{CANDIDATES, Decision, FEASIBLE, Kind, Outcome, Question, Reason, name};
 use crate::fuse::Situation;
 use crate::intent::{Intent, Parameter};
 use crate::judgement::{Judgement, bit};
@@ -17,18 +20,33 @@ use crate::trace::{CategoryTrace, Trace};
 /// An option is offered when its marginal is at least this.
 const OFFERED: f32 = 0.01;
 
-/// When no category's best option holds this much, nothing was understood.
-const LOST: f32 = 0.2;
-
 /// By how much an option that is not to be had may be clearer, at the noise that was heard, than the
 /// one that is: 90 to 1. Above it the person meant just that, and is told.
 const CLEARER: u32 = OCTAVE as u32 * 13 / 2;
 
-/// The outcome of a solved posterior; completes the trace.
+/// The outcome of a solved posterior; completes the trace. A question that may not be asked any more
+/// gives up.
 #[inline(never)]
 pub fn outcome<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
     profile: &Profile,
+    found: Option<Found>,
+    trace: &mut Trace<C, N>,
+) -> Decision<C> {
+    let left = profile
+        .questions
+        .saturating_sub(situation.observations.answers());
+    let mut decision = decide(situation, profile, left, found, trace);
+    if left == 0 && matches!(decision.outcome, Outcome::Ask(_)) {
+        decision.outcome = Outcome::GiveUp;
+    }
+    decision
+}
+
+fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
+    situation: Situation<'_, N, C, F, E, W>,
+    profile: &Profile,
+    left: u8,
     found: Option<Found>,
     trace: &mut Trace<C, N>,
 ) -> Decision<C> {
@@ -48,11 +66,11 @@ pub fn outcome<const N: usize, const C: usize, const F: usize, const E: usize, c
         } else {
             Reason::Missing
         };
-        return undecided(ask(Category::ACTION, reason, trace));
+        return undecided(ask(None, Category::ACTION, reason, trace));
     };
     trace.belief = found.belief;
     if !action_spoken {
-        return undecided(ask(Category::ACTION, Reason::Missing, trace));
+        return undecided(ask(None, Category::ACTION, Reason::Missing, trace));
     }
     let mut best = Intent {
         action: found.best.action,
@@ -61,17 +79,21 @@ pub fn outcome<const N: usize, const C: usize, const F: usize, const E: usize, c
     let others = complete(situation, &found, trace, &mut best);
     trace.belief.posterior *= others;
     let outcome = match doubt(situation, profile, &found, &best, trace) {
-        Some((category, reason)) => ask(category, reason, trace),
+        Some((category, Reason::Missing)) => ask(Some(&best), category, Reason::Missing, trace),
+        Some((category, reason)) => Outcome::Ask(about(&best, trace, category, reason)),
         None => {
             let suffices = match profile.threshold {
-                Threshold::Risk { rate } => trace.belief.suffices(rate),
+                Threshold::Risk { rate } => {
+                    let look = Look::of(profile.questions, left);
+                    trace.belief.suffices(rate, look)
+                }
                 _ => true,
             };
             if suffices {
                 mark(&best, trace);
                 Outcome::Execute(best.clone())
             } else {
-                clarify(&best, trace)
+                choose(&best, trace).map_or(Outcome::Repeat, Outcome::Ask)
             }
         }
     };
@@ -159,7 +181,13 @@ fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W
             return Some((category, Reason::Missing));
         }
     }
+    if let Some(gone) = answered::gone(situation, best, found.level) {
+        return Some(gone);
+    }
     let clearest = |category: Category, chosen: u8| {
+        if answered::vouched(situation.observations, best, category, chosen) {
+            return None;
+        }
         // At the first level errors are small or large by chance, which says nothing of what is meant.
         let level = found.level.max(1);
         let named = trace.evidence.named(category);
@@ -244,41 +272,18 @@ fn mark<const N: usize, const C: usize>(intent: &Intent<C>, trace: &mut Trace<C,
     }
 }
 
-/// Asks about the category of the best intent in which its options are least certain. A category's
-/// doubt is what its best option lacks of all that the category holds.
-fn clarify<const N: usize, const C: usize>(best: &Intent<C>, trace: &Trace<C, N>) -> Outcome<C> {
-    let (mut least, mut surest) = (Category::ACTION, 0.0);
-    let mut most = f32::NEG_INFINITY;
-    let categories = best.parameters.iter().map(|p| p.category);
-    for category in core::iter::once(Category::ACTION).chain(categories) {
-        let Some(word) = trace.category(category) else {
-            continue;
-        };
-        let (mut top, mut all) = (0.0, 0.0);
-        for p in word.merged() {
-            top = crate::math::larger(top, *p);
-            all += p;
-        }
-        surest = crate::math::larger(surest, top);
-        if all - top > most {
-            most = all - top;
-            least = category;
-        }
-    }
-    if surest >= LOST {
-        ask(least, Reason::TooClose, trace)
-    } else {
-        Outcome::Repeat
-    }
-}
-
 /// A question, its options by marginal.
 fn ask<const N: usize, const C: usize>(
+    best: Option<&Intent<C>>,
     category: Category,
     reason: Reason,
     trace: &Trace<C, N>,
 ) -> Outcome<C> {
     let mut question = Question {
+        kind: Kind::Which,
+        action: best
+            .map(|best| best.action)
+            .filter(|_| category != Category::ACTION),
         category,
         reason,
         candidates: Vec::<u8, CANDIDATES>::new(),

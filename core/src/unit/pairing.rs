@@ -11,11 +11,8 @@ use crate::fuse::{Situation, fuse, says_clearly};
 use crate::intent::Intent;
 use crate::observations::Observations;
 use crate::protocol::message::{Decided, Fault, SentencePart, ToHost, Why, WhyActions};
-use crate::sentence::{GESTURE, Sentence};
+use crate::sentence::{ANSWER, GESTURE, Sentence};
 use crate::time::Micros;
-
-/// The modality under which answers to questions are fused with what they were asked about.
-pub const ANSWER: u8 = 3;
 
 /// How long a decision waits for a hand that is in the middle of a sentence, from the first sentence
 /// of another modality on. People point for seconds, and say what they point at in the middle of it.
@@ -259,7 +256,7 @@ impl<
             Some((asked, until)) if asked == decision && now < until => {}
             _ => return Err(Fault::NoQuestion { decision }),
         }
-        let appended = observations.append(ANSWER, arrived, vocabulary);
+        let appended = observations.answer(arrived, vocabulary);
         appended.map_err(|error| Fault::Sentence {
             modality: ANSWER,
             error,
@@ -338,7 +335,7 @@ impl<
         let counter = match decision.outcome {
             Outcome::Execute(_) => &mut self.statistics.executes,
             Outcome::Ask(_) => &mut self.statistics.asks,
-            Outcome::Repeat => &mut self.statistics.repeats,
+            Outcome::Repeat | Outcome::GiveUp => &mut self.statistics.repeats,
         };
         *counter = counter.saturating_add(1);
         self.pairing.numbered = self.pairing.numbered.wrapping_add(1);

@@ -93,7 +93,7 @@ macro_rules! decision {
         }
         black_box($capacity::Word::certain(any(Category::OBJECT), &any([0.5; 3])).is_ok());
         black_box(observed.insert(&sentence, &vocabulary).is_ok());
-        black_box(observed.append(any(3), &sentence, &vocabulary).is_ok());
+        black_box(observed.answer(&sentence, &vocabulary).is_ok());
         let aligned = Alignment::of(&observed);
         black_box((
             aligned.presence(any(Category::OBJECT)),

@@ -301,7 +301,9 @@ impl<'a> Conversation<'a> {
             | Happening::Declined { .. }
             | Happening::Lost(_)
             | Happening::Dropped(_) => Ending::NotDone,
-            Happening::Decided { decision, .. } if decision.outcome == Outcome::Repeat => {
+            Happening::Decided { decision, .. }
+                if matches!(decision.outcome, Outcome::Repeat | Outcome::GiveUp) =>
+            {
                 Ending::NotDone
             }
             _ => return,

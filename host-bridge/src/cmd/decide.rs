@@ -207,5 +207,9 @@ fn in_words(
             "{}   I did not understand. Please say and show it again.",
             paint::bad("repeat")
         ),
+        Outcome::GiveUp => format!(
+            "{}  I am not sure enough, and may not ask. Please start over.",
+            paint::bad("give up")
+        ),
     }
 }

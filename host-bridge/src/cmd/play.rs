@@ -230,6 +230,7 @@ impl Row {
                     )
                 }
                 Outcome::Repeat => "asks to repeat".to_owned(),
+                Outcome::GiveUp => "gives up".to_owned(),
             }),
             Happening::Distrusted(_)
             | Happening::Overruled

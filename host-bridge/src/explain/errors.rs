@@ -170,5 +170,9 @@ pub fn profile_error(error: &ProfileError) -> Advice {
             "no cut is known for so small a risk",
             "tolerate at least 0.003, and less than 1; `deictic-eval calibrate` makes the cuts",
         ),
+        ProfileError::Questions => Advice::new(
+            "more questions than can be asked",
+            "at most 4 questions can be asked about a command; 2 are usual",
+        ),
     }
 }

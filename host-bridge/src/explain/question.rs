@@ -152,6 +152,7 @@ fn or(names: impl Iterator<Item = String>) -> Option<String> {
 mod tests {
     use super::*;
     use crate::scene::SceneFile;
+    use deictic_core::decide::Kind;
     use deictic_core::intent::Parameter;
     use deictic_core::profile::Profile;
 
@@ -178,6 +179,8 @@ mod tests {
             best.parameters.push(parameter).unwrap();
         }
         let asked = Question {
+            kind: Kind::Which,
+            action: None,
             category,
             reason,
             candidates: candidates.iter().copied().collect(),
@@ -223,6 +226,8 @@ mod tests {
         let shown = crate::showing::showing("pick cleaner", &lexicon).unwrap();
         let heard = crate::deciding::heard([&shown], &lexicon, &Profile::PAPER);
         let asked = Question {
+            kind: Kind::Which,
+            action: None,
             category: Category::OBJECT,
             reason: Reason::Infeasible,
             candidates: [0, 1].into_iter().collect(),

@@ -135,7 +135,7 @@ impl Session<'_> {
                 self.happened.push(Happening::Asked { question, text });
                 self.drop_queue();
             }
-            Outcome::Repeat => self.drop_queue(),
+            Outcome::Repeat | Outcome::GiveUp => self.drop_queue(),
         }
     }
 

@@ -21,8 +21,8 @@ use deictic_core::decide::Question;
 use deictic_core::large::{self, Intent, Sentence};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::scene::SceneError;
+use deictic_core::sentence::ANSWER;
 use deictic_core::time::Micros;
-use deictic_core::unit::pairing::ANSWER;
 
 use crate::answering::certainly;
 use crate::clock;

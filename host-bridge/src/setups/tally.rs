@@ -32,7 +32,7 @@ impl Tally {
             Outcome::Execute(intent) if truth.is(intent) => self.executed_right += 1,
             Outcome::Execute(_) => self.executed_wrong += 1,
             Outcome::Ask(_) => self.asked += 1,
-            Outcome::Repeat => self.repeated += 1,
+            Outcome::Repeat | Outcome::GiveUp => self.repeated += 1,
         }
     }
 

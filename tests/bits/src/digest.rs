@@ -71,6 +71,8 @@ impl Digest {
             }
             Outcome::Ask(question) => {
                 self.word(2);
+                self.word(question.kind as u32);
+                self.word(question.action.map_or(u32::MAX, u32::from));
                 self.word(question.category.index() as u32);
                 self.word(question.reason as u32);
                 for &candidate in &question.candidates {
@@ -78,6 +80,7 @@ impl Digest {
                 }
             }
             Outcome::Repeat => self.word(3),
+            Outcome::GiveUp => self.word(4),
         }
         match &decision.best {
             Some(intent) => self.intent(intent),

@@ -32,7 +32,7 @@ fn the_samples_reach_every_outcome() {
         match bench.decide(&Profile::PAPER).unwrap().outcome {
             Outcome::Execute(_) => done += 1,
             Outcome::Ask(_) => asked += 1,
-            Outcome::Repeat => repeated += 1,
+            Outcome::Repeat | Outcome::GiveUp => repeated += 1,
         }
         let finite = bench
             .trace()

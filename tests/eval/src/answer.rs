@@ -65,7 +65,7 @@ impl Judge<'_> {
             ProfileName::Paper => {
                 let executed = match &decision.outcome {
                     Outcome::Execute(intent) => Some(self.triple(intent)),
-                    Outcome::Ask(_) | Outcome::Repeat => None,
+                    Outcome::Ask(_) | Outcome::Repeat | Outcome::GiveUp => None,
                 };
                 Answer {
                     executed,
@@ -85,7 +85,9 @@ impl Judge<'_> {
         })
     }
 
-    fn triple(&self, intent: &Intent<{ board::CATEGORIES }>) -> Triple {
+    /// An intent in the catalogue's numbers.
+    #[must_use]
+    pub fn triple(&self, intent: &Intent<{ board::CATEGORIES }>) -> Triple {
         let parameter = |category: Category| {
             let option = intent.option(category)?;
             Some(self.order.outside(category.index(), option))

@@ -13,7 +13,9 @@ use deictic_core::joint::belief::{Belief, logit, shares};
 
 use crate::density::six_digits;
 
+pub mod asking;
 pub mod fit;
+pub mod reliability;
 pub mod test;
 
 /// Levels of noise that the confidence knows.

@@ -2,6 +2,7 @@
 
 mod bound;
 mod calibrate;
+mod clarify;
 mod generate;
 mod gestures;
 mod paper;
@@ -19,6 +20,7 @@ use clap::Subcommand;
 pub enum Command {
     Bound(bound::Bound),
     Calibrate(calibrate::Calibrate),
+    Clarify(clarify::Clarify),
     Generate(generate::Generate),
     Gestures(gestures::Gestures),
     Paper(paper::Paper),
@@ -36,6 +38,7 @@ impl Command {
         match self {
             Self::Bound(command) => command.run(),
             Self::Calibrate(command) => command.run(),
+            Self::Clarify(command) => command.run(),
             Self::Generate(command) => command.run(),
             Self::Gestures(command) => command.run(),
             Self::Paper(command) => command.run(),

@@ -161,7 +161,9 @@ fn things(
     options.into_iter().map(thing).collect()
 }
 
-fn words(
+/// What a modality observes of what is meant.
+#[must_use]
+pub fn words(
     catalogue: &Catalogue,
     modality: usize,
     truth: Triple,

@@ -111,9 +111,10 @@ pub fn raised(catalogue: &Catalogue, kind: Kind, record: &Record, action: usize)
         .collect()
 }
 
-/// One modality's words: a row of its similarity table per category, rivals raised to the level of
+/// One modality's words in a sample of this kind: a row of its similarity table per category, rivals raised to the level of
 /// what is meant, with errors.
-fn words(
+#[must_use]
+pub fn words(
     catalogue: &Catalogue,
     kind: Kind,
     modality: usize,

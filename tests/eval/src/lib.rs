@@ -12,6 +12,7 @@ pub mod answer;
 pub mod bound;
 pub mod calibration;
 pub mod catalogue;
+pub mod conversation;
 pub mod dataset;
 pub mod density;
 pub mod free;

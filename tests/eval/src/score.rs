@@ -159,6 +159,10 @@ impl Field<'_> {
     /// The core's.
     pub fn beliefs(&self) -> anyhow::Result<Vec<Believed>> {
         let judge = self.judge();
+        let settings = Profile {
+            questions: 0,
+            ..Profile::JOINT
+        };
         let chunks: Vec<Vec<Believed>> = self
             .samples
             .par_chunks(64)
@@ -166,7 +170,7 @@ impl Field<'_> {
                 let mut trace = board::Trace::new();
                 let believe = |(prepared, truth): &(Prepared, Triple)| {
                     let answer = judge
-                        .answer(prepared, &Profile::JOINT, &mut trace)
+                        .answer(prepared, &settings, &mut trace)
                         .map_err(|e| anyhow::anyhow!("{}: the core refuses: {e:?}", self.name))?;
                     Ok(Believed {
                         belief: trace.belief,

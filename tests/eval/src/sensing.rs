@@ -6,14 +6,15 @@ use deictic_core::fuse::{Situation, fuse};
 use deictic_core::joint::Sensors;
 use deictic_core::joint::sensors::quantise;
 use deictic_core::profile::{Profile, ProfileError};
+use deictic_core::sentence::{ANSWER, LANGUAGE};
 
 use crate::catalogue::Catalogue;
 use crate::order::Order;
 use crate::record::{CATEGORIES, MODALITIES};
 use crate::situation::Prepared;
 
-/// Room for six tables of 16 options.
-const BYTES: usize = 6 * 256;
+/// Room for nine tables of 16 options.
+const BYTES: usize = 9 * 256;
 
 /// The tables of a catalogue with options in some order.
 #[derive(Clone, Debug)]
@@ -38,9 +39,16 @@ impl Sensing {
                         .iter()
                         .map(|&j| quantise(row[usize::from(j)]))
                         .collect();
-                    sensors
-                        .set_row(m as u8, category, meant, &row)
-                        .map_err(|e| anyhow::anyhow!("the core refuses a table: {e:?}"))?;
+                    let mut set = |modality| {
+                        sensors
+                            .set_row(modality, category, meant, &row)
+                            .map_err(|e| anyhow::anyhow!("the core refuses a table: {e:?}"))
+                    };
+                    set(m as u8)?;
+                    if m as u8 == LANGUAGE {
+                        // Questions are answered by voice.
+                        set(ANSWER)?;
+                    }
                 }
             }
         }

@@ -2,8 +2,10 @@
 
 use deictic_core::board;
 use deictic_core::category::Category;
+use deictic_core::clarify::Confirmation;
 use deictic_core::fuse::Situation;
 use deictic_core::joint::Tables;
+use deictic_core::sentence::ANSWER;
 
 use crate::catalogue::Catalogue;
 use crate::order::Order;
@@ -73,6 +75,31 @@ impl Prepared {
             scene,
             observations,
         })
+    }
+
+    /// Adds the answer to a question, a word of this category with options in the core's order.
+    ///
+    /// # Errors
+    /// The core's own, in words.
+    pub fn answer(
+        &mut self,
+        answers: &[(Category, Vec<f32>)],
+        vocabulary: &board::Vocabulary,
+    ) -> anyhow::Result<()> {
+        let mut sentence = board::Sentence::new(ANSWER);
+        for (category, likelihoods) in answers {
+            board::Word::certain(*category, likelihoods)
+                .and_then(|word| sentence.push(word))
+                .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))?;
+        }
+        self.observations
+            .answer(&sentence, vocabulary)
+            .map_err(|e| anyhow::anyhow!("the core refuses an answer: {e:?}"))
+    }
+
+    /// Adds a yes or a no.
+    pub fn confirm(&mut self, confirmation: Confirmation) {
+        self.observations.confirm(confirmation);
     }
 
     /// What the core decides on.

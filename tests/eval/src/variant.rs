@@ -126,7 +126,10 @@ impl Variant {
             MergeName::Add => Merge::Add,
         };
         let settings = match (self.profile, self.threshold) {
-            (_, ThresholdName::Risk) => Profile::JOINT,
+            (_, ThresholdName::Risk) => Profile {
+                questions: 0,
+                ..Profile::JOINT
+            },
             (ProfileName::Paper, ThresholdName::None) => Profile::BASELINE,
             (ProfileName::Paper, ThresholdName::Entropy) => Profile::PAPER,
             (ProfileName::Paper, ThresholdName::WhiteNoise) => Profile {

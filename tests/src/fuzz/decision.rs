@@ -108,7 +108,7 @@ fn check(decision: &Decision, trace: &Trace, vocabulary: &Vocabulary, profile: &
             assert!(named.iter().all(|option| usize::from(*option) < options));
             [None, decision.best.as_ref()]
         }
-        Outcome::Repeat => [None, decision.best.as_ref()],
+        Outcome::Repeat | Outcome::GiveUp => [None, decision.best.as_ref()],
     };
     for intent in intents.into_iter().flatten() {
         let signature = vocabulary.actions()[usize::from(intent.action)].signature;
@@ -170,7 +170,7 @@ fn compare(decision: &Decision, trace: &Trace, method: &Method) {
                 .collect(),
         ),
         Outcome::Ask(question) => Verdict::Ask(question.category, question.reason),
-        Outcome::Repeat => Verdict::Repeat,
+        Outcome::Repeat | Outcome::GiveUp => Verdict::Repeat,
     };
     assert_eq!(verdict, method.verdict, "{method:#?}");
 }

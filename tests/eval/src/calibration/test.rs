@@ -39,7 +39,7 @@ pub fn shift(cells: &[Cell], table: &Table, cut: &[f64; KNOTS], tolerated: f64) 
 }
 
 /// The probability of at most `k` of `n` at probability `p` each.
-fn at_most(k: usize, n: usize, p: f64) -> f64 {
+pub(super) fn at_most(k: usize, n: usize, p: f64) -> f64 {
     let (n, ln) = (n as f64, |x: f64| libm::lgamma(x + 1.0));
     let term = |i: f64| (ln(n) - ln(i) - ln(n - i) + i * p.ln() + (n - i) * (1.0 - p).ln()).exp();
     (0..=k).map(|i| term(i as f64)).sum()

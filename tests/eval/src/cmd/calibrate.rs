@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Context;
-use deictic_eval::calibration::{Cell, KNOTS, RISKS, Table, fit, test};
+use deictic_core::clarify::QUESTIONS;
+use deictic_core::profile::{Profile, Threshold};
+use deictic_eval::calibration::{Cell, KNOTS, RISKS, Table, asking, fit, reliability, test};
 use deictic_eval::catalogue::Catalogue;
+use deictic_eval::conversation::{Strategy, Talk};
 use deictic_eval::density;
 use deictic_eval::free;
 use deictic_eval::generate::{Kind, set};
@@ -41,6 +44,10 @@ pub struct Calibrate {
     /// Write the tables of costs instead
     #[arg(long)]
     tables: bool,
+    /// Write the table for commands that may be asked about instead, which goes by the confidence as
+    /// the core has it now
+    #[arg(long, conflicts_with = "tables")]
+    asking: bool,
 }
 
 impl Calibrate {
@@ -52,6 +59,9 @@ impl Calibrate {
             None => Catalogue::papers(),
             Some(file) => Catalogue::read_toml(file)?,
         };
+        if self.asking {
+            return self.asking(&catalogue, &recipe);
+        }
         let draw = |n, seed| cells(&catalogue, &recipe, n, seed);
         let samples = draw(self.fit, FIT_SEED)?;
         let mut pool = samples.clone();
@@ -82,6 +92,28 @@ impl Calibrate {
         self.write(&table.source())
     }
 
+    fn asking(&self, catalogue: &Catalogue, recipe: &Recipe) -> anyhow::Result<()> {
+        let samples = talks(catalogue, recipe, self.fit, FIT_SEED)?;
+        let fresh = talks(catalogue, recipe, self.test, TEST_SEED)?;
+        let mut table = [[[0.0; KNOTS]; 2]; RISKS.len()];
+        for (cuts, risk) in table.iter_mut().zip(RISKS) {
+            *cuts = asking::shift(&fresh, &asking::fit(&samples, risk), risk)
+                .context("no cut can be promised: more samples are needed, or better sensors")?;
+            eprintln!("at a risk of {} %, cuts {cuts:.2?}", 100.0 * risk);
+            eprintln!("two questions     completed  wrong  at once  questions each");
+            for cell in &fresh {
+                let f = cell.figures(cuts, 2);
+                let [completed, wrong, at_once] =
+                    [f.completed, f.wrong, f.at_once].map(|x| 100.0 * x);
+                eprintln!(
+                    "{:<16} {completed:>10.1} {wrong:>6.2} {at_once:>8.1} {:>15.2}",
+                    cell.name, f.asked
+                );
+            }
+        }
+        self.write(&asking::source(&reliability::table(), &table))
+    }
+
     fn write(&self, source: &str) -> anyhow::Result<()> {
         match &self.out {
             None => {
@@ -92,6 +124,32 @@ impl Calibrate {
                 .with_context(|| format!("cannot write {}", file.display())),
         }
     }
+}
+
+/// Commands that are looked at to the end of all questions.
+fn talks(
+    catalogue: &Catalogue,
+    recipe: &Recipe,
+    n: usize,
+    seed: u64,
+) -> anyhow::Result<Vec<asking::Cell>> {
+    let profile = Profile {
+        threshold: Threshold::None,
+        questions: QUESTIONS as u8,
+        ..Profile::JOINT
+    };
+    let mut cells = Vec::new();
+    for kind in Kind::ALL {
+        for level in Level::ALL {
+            let set = set(catalogue, recipe, kind, level, n, seed);
+            let Some(talk) = Talk::new(&set, catalogue)? else {
+                continue;
+            };
+            let looks = talk.all(&profile, Strategy::Gain, seed)?;
+            cells.push(asking::Cell::new(set.name.clone(), level.number(), &looks));
+        }
+    }
+    Ok(cells)
 }
 
 fn cells(catalogue: &Catalogue, recipe: &Recipe, n: usize, seed: u64) -> anyhow::Result<Vec<Cell>> {

@@ -1,0 +1,70 @@
+//! The question that is expected to help most.
+
+use heapless::Vec;
+
+use super::gain;
+use crate::category::Category;
+use crate::decide::{Kind, Question, Reason, name};
+use crate::intent::Intent;
+use crate::math::larger;
+use crate::trace::Trace;
+
+/// When no category's best option holds this much, nothing was understood.
+const LOST: f32 = 0.2;
+
+/// The question of the largest gain per cost about the likeliest intent of a decision of the joint
+/// model; `None` when nothing was understood that could be asked about.
+#[must_use]
+pub fn choose<const N: usize, const C: usize>(
+    best: &Intent<C>,
+    trace: &Trace<C, N>,
+) -> Option<Question> {
+    let mut surest = 0.0;
+    let mut most = (0.0, Category::ACTION);
+    let parameters = best.parameters.iter().map(|p| p.category);
+    for category in core::iter::once(Category::ACTION).chain(parameters) {
+        let Some(word) = trace.category(category) else {
+            continue;
+        };
+        for p in word.merged() {
+            surest = larger(surest, *p);
+        }
+        let gain = gain::which(word.merged(), trace.belief.noise);
+        if gain > most.0 {
+            most = (gain, category);
+        }
+    }
+    (surest >= LOST).then(|| about(best, trace, most.1, Reason::TooClose))
+}
+
+/// The question about this category, or about the whole intent, whichever has the larger gain per
+/// cost.
+#[must_use]
+pub fn about<const N: usize, const C: usize>(
+    best: &Intent<C>,
+    trace: &Trace<C, N>,
+    category: Category,
+    reason: Reason,
+) -> Question {
+    let belief = trace.belief;
+    let marginal = trace
+        .category(category)
+        .map_or(&[][..], |word| word.merged());
+    let which = gain::which(marginal, belief.noise) * (1.0 / gain::WHICH);
+    let confirm = gain::confirm(belief.posterior, belief.noise) * (1.0 / gain::CONFIRM);
+    let mut question = Question {
+        kind: if confirm > which {
+            Kind::Confirm
+        } else {
+            Kind::Which
+        },
+        action: (category != Category::ACTION).then_some(best.action),
+        category,
+        reason,
+        candidates: Vec::new(),
+    };
+    if let Some(word) = trace.category(category) {
+        name(&mut question, word.merged(), word.judgement.unclear);
+    }
+    question
+}
