@@ -4,6 +4,18 @@ use std::fmt;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceSpan};
 
+/// An error and what is behind it, in one line.
+#[must_use]
+pub fn in_full(error: &dyn std::error::Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        text = format!("{text}: {error}");
+        cause = error.source();
+    }
+    text
+}
+
 /// What can be wrong with a file, apart from where.
 pub trait Problem: std::error::Error + 'static {
     /// What the person can do about it.

@@ -4,10 +4,10 @@
 #[path = "common/lab.rs"]
 mod lab;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use deictic::robot::fci::{Fci, FciFault};
-use deictic::robot::{Event, Fault, Refusal, Robot};
+use deictic::robot::{Event, Fault, Robot};
 use franka::Errors;
 use lab::Lab;
 use lab::bench::O;
@@ -107,21 +107,32 @@ fn a_broken_connection_ends_the_command_and_is_made_again() {
         };
         assert_eq!(fault, Fault::RobotLost, "{trouble:?}");
         lab.fer.trouble(Trouble::None);
-        let cycles = lab.fer.state().cycles;
-        // It is tried again once a second; nothing that was given before is given again.
-        let patience = Instant::now() + Duration::from_secs(20);
-        loop {
-            match lab.begin("move-up", &[]) {
-                Ok(_) => break,
-                Err(Refusal::Arm { .. }) if Instant::now() < patience => {
-                    assert_eq!(lab.fer.state().cycles, cycles);
-                    std::thread::sleep(Duration::from_millis(100));
-                }
-                Err(other) => panic!("{trouble:?}: {other}"),
-            }
-        }
-        assert!(matches!(lab.ending(), Event::Done(_)), "{trouble:?}");
+        lab.moves_when_it_is_back(trouble);
         assert!(lab.fer.state().connections >= 2);
+    }
+}
+
+#[test]
+fn a_connection_may_break_at_every_step() {
+    for step in 1..=5 {
+        let mut lab = Lab::new();
+        lab.begin("pick", &[(O, "can")]).unwrap();
+        lab.until(|e| matches!(e, Event::Begun { number, .. } if *number == step));
+        // The fingers are quick: it breaks in the first motion of the arm from here on.
+        lab.fer.trouble(Trouble::Cut(0));
+        let ending = lab.ending();
+        let lost = matches!(
+            &ending,
+            Event::Failed {
+                fault: Fault::RobotLost,
+                ..
+            }
+        );
+        assert!(lost, "step {step}: {ending:?}");
+        let grasped = (step > 3).then_some("can");
+        assert_eq!(lab.fci.holding(), grasped, "step {step}");
+        lab.fer.trouble(Trouble::None);
+        lab.moves_when_it_is_back(step);
     }
 }
 

@@ -1,31 +1,21 @@
 //! What a person types and speaks, given to a session; and how it ended.
 
+mod ending;
 mod input;
 
 use std::collections::VecDeque;
 
-use deictic_core::decide::Outcome;
-
+pub use self::ending::Ending;
 use self::input::{BETWEEN, Input};
 use super::printer::Printer;
 use crate::answering::{Reply, reply};
 use crate::explain;
 use crate::language::{LanguageError, Listener, Spoken, text_of};
-use crate::robot::Event;
 use crate::sensor::Sensors;
 use crate::sensor_model::SensorModel;
-use crate::session::{Happening, Order, Session};
+use crate::session::{Order, Session};
 use crate::showing::showing;
 use crate::understanding::{self, Understood, mentions_stop};
-
-/// How the last command ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The robot has done it.
-    Done,
-    /// It was not done, or not to its end.
-    NotDone,
-}
 
 /// A share of what may have been heard that is enough to stand still.
 const MAY_BE_STOP: f64 = 0.2;
@@ -125,9 +115,12 @@ impl<'a> Conversation<'a> {
 
     /// Tells the robot directly.
     fn order(&mut self, session: &mut Session<'_>, order: Order) {
-        if let Err(refusal) = session.order(order) {
-            self.last = Ending::NotDone;
-            self.printer.declined(order, &refusal);
+        match session.order(order) {
+            Ok(()) => self.printer.ordered(order),
+            Err(refusal) => {
+                self.last = Ending::NotDone;
+                self.printer.declined(order, &refusal);
+            }
         }
     }
 
@@ -285,41 +278,6 @@ impl<'a> Conversation<'a> {
             return;
         }
         session.queue(observed);
-    }
-
-    /// Keeps account of how commands end.
-    pub fn hear(&mut self, happening: &Happening) {
-        self.last = match happening {
-            Happening::Robot(Event::Done(_)) => Ending::Done,
-            Happening::Robot(Event::Stopped { .. } | Event::Failed { .. })
-            | Happening::Refused { .. }
-            | Happening::Distrusted(_)
-            | Happening::Overruled
-            | Happening::Fault(_)
-            | Happening::NoDecision
-            | Happening::Hanging(_)
-            | Happening::Declined { .. }
-            | Happening::Lost(_)
-            | Happening::Dropped(_) => Ending::NotDone,
-            Happening::Decided { decision, .. }
-                if matches!(decision.outcome, Outcome::Repeat | Outcome::GiveUp) =>
-            {
-                Ending::NotDone
-            }
-            _ => return,
-        };
-    }
-
-    /// Ends the session when what is going on is over.
-    pub fn quit(&mut self) {
-        self.quits = true;
-    }
-
-    /// How it ended, if it did; of a session for one command `once` that is over.
-    pub fn ending(&self, session: &Session<'_>, once: bool) -> Option<Ending> {
-        let idle = session.is_idle() && !session.is_showing() && self.waiting.is_empty();
-        let over = self.quits || (once && session.question().is_none());
-        (idle && over).then_some(self.last)
     }
 }
 

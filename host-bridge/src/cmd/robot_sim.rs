@@ -67,7 +67,7 @@ impl RobotSim {
                 continue;
             };
             // One that cannot be opened fails again and again, and is told once.
-            let error = error.to_string();
+            let error = crate::diagnose::in_full(&error);
             if error != last {
                 if self.json {
                     println!("{}", json!({ "event": "link", "error": error }));

@@ -40,6 +40,18 @@ pub enum ReachError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Wire(#[from] WireError),
+    /// Nobody listens at its port.
+    #[error("cannot reach the robot at {way}")]
+    #[diagnostic(help(
+        "is it switched on? `deictic robot-sim --listen {way}` starts a simulated one"
+    ))]
+    NotListening {
+        /// Where it was to be.
+        way: Way,
+        /// What the system said.
+        #[source]
+        cause: io::Error,
+    },
     /// The link failed at once.
     #[error("the link to the robot at {way} fails")]
     #[diagnostic(help("look at the cable"))]
@@ -90,7 +102,14 @@ impl fmt::Display for Way {
 /// [`ReachError`] with what to do about it.
 pub fn reach(way: &Way, lexicon: &Lexicon) -> Result<Remote, ReachError> {
     // Opened once here for an error with a remedy; later failures only mean to try again.
-    let mut first = Some(carrier(way)?);
+    let first = carrier(way).map_err(|error| match error {
+        WireError::Tcp { cause, .. } => ReachError::NotListening {
+            way: way.clone(),
+            cause,
+        },
+        other => other.into(),
+    })?;
+    let mut first = Some(first);
     let again = way.clone();
     let opener: Opener = Box::new(move || match first.take() {
         Some(carrier) => Ok(carrier),

@@ -5,14 +5,13 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use deictic_core::category::Category;
-use deictic_core::gesture::pointing::{Aim, Mount};
 use deictic_core::large;
-use deictic_core::protocol::hand::{HandFault, HandSettings};
 use deictic_core::scene::SceneError;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::error::SceneProblem as Problem;
+use super::sensor::Sensor;
 use super::{Measures, TABLE, Tabletop};
 use crate::diagnose::FileError;
 use crate::vocabulary::Lexicon;
@@ -31,53 +30,6 @@ struct Written {
     object: Vec<Spanned<Thing>>,
     #[serde(default)]
     storage: Vec<Spanned<Thing>>,
-}
-
-/// Where the hand sensor stands and how well the person aims.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Sensor {
-    origin: [f32; 3],
-    x: [f32; 3],
-    y: [f32; 3],
-    z: [f32; 3],
-    sigma: f32,
-    nothing: f32,
-}
-
-impl Default for Sensor {
-    fn default() -> Self {
-        let HandSettings { mount, aim } = HandSettings::DEFAULT;
-        let [x, y, z] = mount.axes;
-        Self {
-            origin: mount.origin,
-            x,
-            y,
-            z,
-            sigma: aim.sigma,
-            nothing: aim.nothing,
-        }
-    }
-}
-
-impl Sensor {
-    fn settings(self) -> Result<HandSettings, Problem> {
-        let mount = Mount {
-            axes: [self.x, self.y, self.z],
-            origin: self.origin,
-        };
-        let aim = Aim {
-            sigma: self.sigma,
-            nothing: self.nothing,
-        };
-        mount
-            .check()
-            .map_err(|e| Problem::Sensor(HandFault::Mount(e)))?;
-        if !aim.is_sound() {
-            return Err(Problem::Sensor(HandFault::Aim));
-        }
-        Ok(HandSettings { mount, aim })
-    }
 }
 
 #[derive(Debug, Deserialize)]

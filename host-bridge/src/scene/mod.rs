@@ -5,6 +5,7 @@ pub mod feed;
 mod file;
 pub mod line;
 mod measures;
+mod sensor;
 pub mod watch;
 
 use std::collections::BTreeMap;

@@ -5,10 +5,10 @@ use std::time::Duration;
 use deictic_core::decide::Outcome;
 use deictic_core::large::{Intent, Sentence};
 use deictic_core::protocol::hand::HandFault;
-use deictic_core::protocol::message::{Decided, Fault, RobotState, RobotStatus};
+use deictic_core::protocol::message::{Decided, Fault, RobotState};
 use deictic_core::time::Micros;
 
-use super::{Doing, HANGING, Happening, Order, PATIENCE, Session, Source};
+use super::{Doing, Happening, Order, PATIENCE, Session, Source};
 use crate::clock;
 use crate::deciding::heard;
 use crate::explain;
@@ -257,47 +257,5 @@ impl Session<'_> {
             robot::Event::Stopped { id, .. } => self.over(id, RobotState::Stopped),
             robot::Event::Failed { id, .. } => self.over(id, RobotState::Failed),
         }
-    }
-
-    /// Stops a robot that has got nowhere for too long; its command has failed.
-    pub(super) fn give_up_on_hanging(&mut self) {
-        let now = self.now();
-        let percent = self.robot.progress(now).map(|(_, percent)| percent);
-        let Some(doing) = &mut self.doing else {
-            return;
-        };
-        if percent.is_some_and(|percent| percent != doing.percent) {
-            doing.percent = percent.unwrap_or_default();
-            doing.heard = clock::now();
-        }
-        if doing.held {
-            doing.heard = clock::now();
-        }
-        if clock::since(doing.heard) < HANGING {
-            return;
-        }
-        let id = doing.id;
-        self.overtaken.clear();
-        self.robot.stop(now);
-        self.happened.push(Happening::Hanging(id));
-        self.over(id, RobotState::Failed);
-    }
-
-    fn over(&mut self, id: CommandId, state: RobotState) {
-        let overtaken = self.overtaken.iter().position(|d| d.id == id);
-        let overtaken = overtaken.map(|at| self.overtaken.remove(at));
-        if let Some(doing) = overtaken.or_else(|| self.doing.take_if(|d| d.id == id)) {
-            if state != RobotState::Done {
-                self.drop_queue();
-            }
-            if let Some(source) = doing.source {
-                self.report(source.decision, state);
-            }
-        }
-    }
-
-    fn report(&mut self, decision: u32, state: RobotState) {
-        // A unit that is not there has nothing to do with this command any more.
-        let _ = self.unit.report(RobotStatus { decision, state });
     }
 }

@@ -186,7 +186,7 @@ impl Journal {
 /// The way home, as an intent is written.
 fn home() -> IntentReport {
     IntentReport {
-        action: Order::Home.to_string(),
+        action: "home".to_owned(),
         parameters: Vec::new(),
     }
 }

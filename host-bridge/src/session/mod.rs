@@ -6,6 +6,7 @@
 //! the unit is lost. A stop goes to the robot at once and to the unit as well, and overrules whatever
 //! the unit decides until it has confirmed it.
 
+mod ends;
 mod happening;
 mod hearing;
 pub mod journal;

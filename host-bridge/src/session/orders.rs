@@ -40,8 +40,8 @@ impl fmt::Display for Order {
         f.write_str(match self {
             Self::Hold => "hold",
             Self::Resume => "resume",
-            Self::Home => "home",
-            Self::Clear => "clear",
+            Self::Home => "go home",
+            Self::Clear => "clear its fault",
         })
     }
 }

@@ -75,11 +75,8 @@ pub enum UnitError {
 }
 
 impl UnitError {
-    /// It and its cause in one line.
+    /// It and its causes in one line.
     pub(super) fn in_full(&self) -> String {
-        match std::error::Error::source(self) {
-            Some(cause) => format!("{self}: {cause}"),
-            None => self.to_string(),
-        }
+        crate::diagnose::in_full(self)
     }
 }

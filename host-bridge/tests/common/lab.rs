@@ -99,4 +99,22 @@ impl Lab {
         let off = at.iter().zip(place).map(|(a, b)| (a - b) * (a - b));
         off.sum::<f64>().sqrt()
     }
+
+    /// Waits until the arm is connected again, which is tried once a second, and moves it; nothing that was given before
+    /// is given again.
+    pub fn moves_when_it_is_back(&mut self, after: impl std::fmt::Debug) {
+        let cycles = self.fer.state().cycles;
+        let patience = Instant::now() + Duration::from_secs(20);
+        loop {
+            match self.begin("move-up", &[]) {
+                Ok(_) => break,
+                Err(Refusal::Arm { .. }) if Instant::now() < patience => {
+                    assert_eq!(self.fer.state().cycles, cycles);
+                    std::thread::sleep(Duration::from_millis(100));
+                }
+                Err(other) => panic!("after {after:?}: {other}"),
+            }
+        }
+        assert!(matches!(self.ending(), Event::Done(_)), "after {after:?}");
+    }
 }

@@ -30,7 +30,7 @@ impl Can {
         if !guest::is_possible() {
             bail!("{}", guest::MISSING);
         }
-        let tests = build(&TESTS)?;
+        let tests = build(&TESTS, &[])?;
         if has_can() {
             here(&tests)
         } else {
@@ -61,8 +61,8 @@ fn in_a_guest(tests: &[PathBuf]) -> Result<()> {
     Ok(())
 }
 
-/// Builds tests of the bridge; gives their programs.
-pub fn build(tests: &[&str]) -> Result<Vec<PathBuf>> {
+/// Builds tests of the bridge, `profile` being arguments to cargo; gives their programs.
+pub fn build(tests: &[&str], profile: &[&str]) -> Result<Vec<PathBuf>> {
     let mut command = cargo();
     command.args([
         "test",
@@ -72,6 +72,7 @@ pub fn build(tests: &[&str]) -> Result<Vec<PathBuf>> {
         "--message-format",
         "json",
     ]);
+    command.args(profile);
     for test in tests {
         command.args(["--test", test]);
     }

@@ -40,7 +40,9 @@ struct Told {
 
 impl Latency {
     pub fn run(self) -> Result<()> {
-        let test = build(&[TEST])?.pop().context("no test was built")?;
+        let test = build(&[TEST], &["--release"])?
+            .pop()
+            .context("no test was built")?;
         let here = |can: bool| {
             let mut command = Command::new(&test);
             command.args(["--nocapture", "--test-threads", "1"]);

@@ -8,6 +8,12 @@ use crate::robot::{Event, Refusal};
 use crate::session::Order;
 
 impl Printer {
+    /// What the robot was told directly; what it does follows.
+    pub fn ordered(self, order: Order) {
+        self.line("told", format!("the robot to {order}"));
+        self.object(&json!({ "event": "ordered", "order": order.to_string() }));
+    }
+
     /// What the robot was told directly and does not do.
     pub fn declined(self, order: Order, refusal: &Refusal) {
         let (what, remedy) = (refusal.to_string(), refusal.remedy());
