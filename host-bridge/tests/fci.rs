@@ -59,6 +59,34 @@ fn a_stop_comes_to_rest_on_the_way() {
     assert!(matches!(lab.ending(), Event::Done(_)));
 }
 
+/// An arm with mass cannot stand still at once. Counted in its own control periods, each of which has a state with a
+/// number and a command that answers it, it stands 250 after the stop, and two for what was under way.
+#[test]
+fn an_arm_that_is_stopped_stands_after_a_quarter_of_a_second() {
+    let mut lab = Lab::new();
+    lab.begin("move-up", &[]).unwrap();
+    while lab.fer.state().strides.len() < 500 {
+        lab.poll();
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let told = {
+        // While this is held, the arm tells no state.
+        let state = lab.fer.state();
+        lab.fci.stop(NOW);
+        state.told
+    };
+    assert!(matches!(lab.ending(), Event::Stopped { .. }));
+    let state = lab.fer.state();
+    let (last, stride) = state.strides.last().copied().unwrap();
+    assert!(last > told + 50, "it brakes before it stands");
+    assert!(last - told <= 250 + 2, "it stands after {}", last - told);
+    assert!(
+        stride < 1e-2 * state.fastest,
+        "{stride} of {}",
+        state.fastest
+    );
+}
+
 #[test]
 fn a_held_arm_stands_on_its_way_and_goes_on_with_the_rest_of_the_plan() {
     let mut lab = Lab::new();

@@ -181,7 +181,8 @@ impl<'a> Session<'a> {
     pub fn turn(&mut self, patience: Duration) -> Vec<Happening> {
         self.hear_robot();
         self.give_up_on_hanging();
-        let patience = if self.happened.is_empty() {
+        // What is held back until a decision's reasons come is no reason to hurry.
+        let patience = if self.happened.is_empty() || self.reasons.is_some() {
             patience
         } else {
             Duration::ZERO

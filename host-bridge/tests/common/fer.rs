@@ -47,6 +47,10 @@ pub struct State {
     pub cycles: u32,
     /// The fastest any joint went, in rad per cycle.
     pub fastest: f64,
+    /// The number of the last state that was told.
+    pub told: u64,
+    /// Which state a command answered, and how far it took the fastest joint, in rad.
+    pub strides: Vec<(u64, f64)>,
     pub recovered: u32,
     pub collision_behaviour: u32,
     pub connections: u32,
@@ -86,6 +90,8 @@ impl Fer {
                 ddq: [0.0; 7],
                 cycles: 0,
                 fastest: 0.0,
+                told: 0,
+                strides: Vec::new(),
                 recovered: 0,
                 collision_behaviour: 0,
                 connections: 0,
@@ -229,6 +235,7 @@ impl Fer {
 impl State {
     fn tell(&mut self, number: u64) -> Option<(SocketAddr, Vec<u8>, bool)> {
         let client = self.client?;
+        self.told = number;
         match self.trouble {
             Trouble::Reflex(error, after) if self.cycles > after && self.moving.is_some() => {
                 self.reflex = Some(error);
@@ -280,7 +287,9 @@ impl State {
             command.motion.q_c.map(f64::from)
         };
         let apart = self.q.iter().zip(&to).map(|(a, b)| (a - b).abs());
-        self.fastest = apart.fold(self.fastest, f64::max);
+        let stride = apart.fold(0.0, f64::max);
+        self.fastest = self.fastest.max(stride);
+        self.strides.push((command.message_id.into(), stride));
         for (i, to) in to.into_iter().enumerate() {
             let speed = (to - self.q[i]) * 1e3;
             self.ddq[i] = (speed - self.dq[i]) * 1e3;

@@ -122,16 +122,14 @@ impl Line {
             frame.truncate(random.below(frame.len() as u32) as usize);
         }
         let sound = !(flipped || burst || cut);
-        if noise {
-            let junk: Vec<u8> = (0..1 + random.below(20))
+        let junk: Vec<u8> = match noise {
+            true => (0..1 + random.below(20))
                 .map(|_| random.below(256) as u8)
-                .collect();
-            self.flying.push(Flying {
-                arrives: now.after(FLIGHT).max(self.last),
-                bytes: junk,
-                sound: false,
-            });
-        }
+                .collect(),
+            false => Vec::new(),
+        };
+        self.disturb(now, &junk);
+        let random = &mut self.random;
         let flight = FLIGHT.after(Micros(u64::from(random.below(500))));
         // Without a fault nothing overtakes anything.
         let mut arrives = now.after(flight).max(self.last);
@@ -153,6 +151,17 @@ impl Line {
             bytes: frame,
             sound,
         });
+    }
+
+    /// Bytes that nobody sent come out of it, between two frames.
+    pub fn disturb(&mut self, now: Micros, bytes: &[u8]) {
+        if !bytes.is_empty() {
+            self.flying.push(Flying {
+                arrives: now.after(FLIGHT).max(self.last),
+                bytes: bytes.to_vec(),
+                sound: false,
+            });
+        }
     }
 
     /// When the next bytes arrive.

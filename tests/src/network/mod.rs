@@ -5,8 +5,8 @@
 pub mod damage;
 pub mod line;
 pub mod trial;
-mod watch;
-mod world;
+pub mod watch;
+pub mod world;
 
 pub use watch::Watch;
 pub use world::World;

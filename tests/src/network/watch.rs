@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use deictic::robot::sim::Sim;
-use deictic::robot::{Command, CommandId, Event, Fault, Refusal, Robot, Taken, World as Around};
+use deictic::robot::{
+    Command, CommandId, Event, Fault, Posture, Refusal, Robot, Taken, World as Around,
+};
 use deictic_core::time::Micros;
 
 /// What a robot was told and did.
@@ -128,6 +130,10 @@ impl Robot for Watch {
 
     fn progress(&self, now: Micros) -> Option<(CommandId, u8)> {
         self.seen().sim.progress(now)
+    }
+
+    fn posture(&self, now: Micros) -> Option<Posture> {
+        self.seen().sim.posture(now)
     }
 
     fn holding(&self) -> Option<&str> {

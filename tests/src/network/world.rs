@@ -46,6 +46,10 @@ pub struct Inside {
     pub told: BTreeMap<(u32, u32), Told>,
     /// When a whole frame last came to the host.
     pub heard: Micros,
+    /// Reads what comes to the host, as the bridge does.
+    host_ear: Box<Link>,
+    /// The last execution whose frame came to the host, and when it did.
+    pub arrived: Option<(Micros, Intent)>,
 }
 
 /// A handle on the world, which is also the bridge's wire to the unit.
@@ -72,6 +76,8 @@ impl World {
             ear: Box::default(),
             told: BTreeMap::new(),
             heard: Micros(0),
+            host_ear: Box::default(),
+            arrived: None,
         };
         Self {
             inside: Arc::new(Mutex::new(inside)),
@@ -113,6 +119,24 @@ impl World {
         *inside.unit = Unit::new(boot);
         inside.ahead = Micros(0);
         inside.to_unit.break_after(0);
+    }
+
+    /// Bytes that nobody sent come out of the line at both of its ends.
+    pub fn disturb(&self, bytes: &[u8]) {
+        let now = self.now();
+        let mut inside = self.inside();
+        inside.run(now);
+        inside.to_unit.disturb(now, bytes);
+        inside.to_host.disturb(now, bytes);
+    }
+
+    /// Bytes come on the unit's sensor line.
+    pub fn sense(&self, bytes: &[u8]) {
+        let now = self.now();
+        let mut inside = self.inside();
+        inside.run(now);
+        let unit_now = now.after(inside.ahead);
+        inside.unit.sense(unit_now, bytes);
     }
 
     /// The unit does nothing for so long.
@@ -188,6 +212,18 @@ impl Inside {
         self.now = self.now.max(until);
     }
 
+    /// Notes the executions among what comes to the host.
+    fn listen(&mut self, now: Micros, bytes: &[u8]) {
+        for &byte in bytes {
+            if let Some(received) = self.host_ear.receive::<ToHost>(byte)
+                && let ToHost::Decision(decided) = received.message
+                && let Outcome::Execute(intent) = decided.decision.outcome
+            {
+                self.arrived = Some((now, intent));
+            }
+        }
+    }
+
     /// Remembers what the unit tells to be done.
     fn note(&mut self, bytes: &[u8]) {
         for &byte in bytes {
@@ -231,6 +267,7 @@ impl Wire for World {
                 inside.heard = now;
             }
             if !arrived.bytes.is_empty() {
+                inside.listen(now, &arrived.bytes);
                 buffer[..arrived.bytes.len()].copy_from_slice(&arrived.bytes);
                 return Ok(arrived.bytes.len());
             }
