@@ -7,6 +7,7 @@
 //! | `firmware` | builds the images of both boards |
 //! | `qemu` | boots the unit in QEMU and says how to connect |
 //! | `budget` | measures the image against its golden figures |
+//! | `growth` | measures how a decision's cost grows with what there is |
 //! | `test` | formatting, lints, all tests, both images, budgets |
 //! | `fci` | plays the session on an arm that speaks its own network interface (franka-sim) |
 //! | `can` | tries the robot's links on a real CAN bus, if need be in a Linux of its own |
@@ -21,6 +22,7 @@
 mod board;
 mod budget;
 mod cmd;
+mod growth;
 mod guest;
 mod process;
 mod qemu;
@@ -45,6 +47,7 @@ enum Command {
     Firmware(cmd::firmware::Firmware),
     Qemu(cmd::qemu::Qemu),
     Budget(cmd::budget::Budget),
+    Growth(cmd::growth::Growth),
     Test(cmd::test::Test),
     Fci(cmd::fci::Fci),
     Can(cmd::can::Can),
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
         Command::Firmware(firmware) => firmware.run(),
         Command::Qemu(qemu) => qemu.run(),
         Command::Budget(budget) => budget.run(),
+        Command::Growth(growth) => growth.run(),
         Command::Test(test) => test.run(),
         Command::Fci(fci) => fci.run(),
         Command::Can(can) => can.run(),

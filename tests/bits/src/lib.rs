@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 
 mod digest;
+pub mod growth;
 pub mod hand;
 pub mod random;
 mod sample;
@@ -110,6 +111,18 @@ impl Bench {
             &mut self.observations,
         );
         sensing::learn(&mut self.sensors, &mut Random::new(0), &self.vocabulary);
+    }
+
+    /// Puts a situation of this size on the bench, one of [`growth::DRAWS`]; the sensors are known.
+    pub fn sized(&mut self, size: growth::Size, draw: u64) {
+        growth::fill(
+            size,
+            draw,
+            &mut self.vocabulary,
+            &mut self.scene,
+            &mut self.observations,
+        );
+        sensing::learn(&mut self.sensors, &mut Random::new(draw), &self.vocabulary);
     }
 
     /// Puts sample `i` on the bench.

@@ -8,6 +8,7 @@ pub mod faults;
 pub mod fci;
 pub mod firmware;
 pub mod fuzz;
+pub mod growth;
 pub mod interface;
 pub mod key;
 pub mod latency;

@@ -5,7 +5,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::board::{self, Board};
-use crate::cmd::{budget::Budget, can::Can, setup};
+use crate::cmd::{budget::Budget, can::Can, growth::Growth, setup};
 use crate::guest;
 use crate::process::{self, cargo};
 use crate::qemu::{self, Link};
@@ -60,6 +60,8 @@ impl Test {
         } else {
             eprintln!("skipped: {}", guest::MISSING);
         }
+        step("the cost of a decision grows in straight lines");
+        Growth::check(&toolchain)?;
         step("budgets");
         Budget::check(&toolchain)
     }
