@@ -130,6 +130,8 @@ fn to_unit() -> Vec<(&'static str, ToUnit)> {
 fn template(gesture: u8) -> Template {
     Template {
         gesture,
+        tolerance: 24,
+        direct: 250,
         points: std::array::from_fn(|i| [i as i8, -(i as i8), i8::MIN]),
         ln_length: 5.5,
         ln_seconds: -0.5,

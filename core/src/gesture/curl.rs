@@ -59,10 +59,14 @@ pub fn folded(finger: &Finger) -> Option<f32> {
     let outer = vector::sub(finger.tip, finger.middle);
     let lengths = vector::dot(inner, inner) * vector::dot(outer, outer);
     // The comparison is false for NaN.
-    (lengths > 1.0).then(|| {
-        let cosine = vector::dot(inner, outer) / math::sqrt(lengths);
-        smooth((STRAIGHT - cosine) / (STRAIGHT - FOLDED))
-    })
+    (lengths > 1.0).then(|| folded_by(vector::dot(inner, outer) / math::sqrt(lengths)))
+}
+
+/// How far a finger is folded, 0..=1, by the cosine of the angle between the bone next to the knuckle
+/// and the line from the middle joint to the tip.
+#[must_use]
+pub fn folded_by(cosine: f32) -> f32 {
+    smooth((STRAIGHT - cosine) / (STRAIGHT - FOLDED))
 }
 
 /// How far the thumb is folded, 0..=1; `None` without thumb or index.
@@ -81,23 +85,28 @@ fn smooth(x: f32) -> f32 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Makes shapes less probable that the fingers rule out; and none of them, when the fingers are held
-/// as for one. About 1,200 instructions.
-pub fn rule_out(probabilities: &mut [f32; SHAPES], frame: &HandFrame) {
+/// How far each finger is folded, thumb first.
+#[must_use]
+pub fn folds(frame: &HandFrame) -> [Option<f32>; FINGERS] {
     let [_, others @ ..] = &frame.fingers;
-    let mut fold = [None; FINGERS];
-    let [thumb, folds @ ..] = &mut fold;
+    let mut folds = [None; FINGERS];
+    let [thumb, rest @ ..] = &mut folds;
     *thumb = thumb_folded(frame);
-    for (fold, finger) in folds.iter_mut().zip(others) {
+    for (fold, finger) in rest.iter_mut().zip(others) {
         *fold = finger.as_ref().and_then(folded);
     }
-    let known = fold.iter().all(Option::is_some);
+    folds
+}
+
+/// Makes shapes less probable that the fingers, folded so, rule out; and none of them, when the fingers
+/// are held as for one. With [`folds`] about 1,200 instructions.
+pub fn rule_out(probabilities: &mut [f32; SHAPES], fold: &[Option<f32>; FINGERS]) {
     let [shapes @ .., none] = probabilities;
     let (mut best, mut sum) = (0.0, 0.0);
     for (p, held) in shapes.iter_mut().zip(&HELD) {
-        let fit = fit(&fold, held);
+        let fit = fit(fold, held);
         // A pinch is what its tips make of it.
-        if known && !held.starts_with(&[Any, Any]) && fit > best {
+        if is_known(fold, held) && !held.starts_with(&[Any, Any]) && fit > best {
             best = fit;
         }
         *p *= left(fit);
@@ -115,6 +124,14 @@ pub fn rule_out(probabilities: &mut [f32; SHAPES], frame: &HandFrame) {
 /// What a shape is left with that fits this well.
 fn left(fit: f32) -> f32 {
     DOUBT + (1.0 - DOUBT) * fit
+}
+
+/// Whether all fingers that matter for a shape are known.
+fn is_known(fold: &[Option<f32>; FINGERS], shape: &[Held; FINGERS]) -> bool {
+    let fingers = fold.iter().zip(shape);
+    fingers.fold(true, |known, (fold, held)| {
+        known && (fold.is_some() || *held == Any)
+    })
 }
 
 /// How well fingers that are folded so fit a shape, 0..=1. Those that are not known fit any.
@@ -158,7 +175,7 @@ mod tests {
 
     fn ruled(folds: [bool; FINGERS]) -> [f32; SHAPES] {
         let mut p = [1.0 / SHAPES as f32; SHAPES];
-        rule_out(&mut p, &hand(folds));
+        rule_out(&mut p, &super::folds(&hand(folds)));
         p
     }
 
@@ -189,7 +206,7 @@ mod tests {
             ..HandFrame::default()
         };
         let mut p = [1.0 / SHAPES as f32; SHAPES];
-        rule_out(&mut p, &frame);
+        rule_out(&mut p, &folds(&frame));
         assert!(
             p.iter().all(|p| (p - 1.0 / SHAPES as f32).abs() < 1e-6),
             "{p:?}"
@@ -207,7 +224,7 @@ mod tests {
                 ..HandFrame::default()
             };
             let mut p = [1.0 / SHAPES as f32; SHAPES];
-            rule_out(&mut p, &frame);
+            rule_out(&mut p, &folds(&frame));
             let sum: f32 = p.iter().sum();
             prop_assert!((sum - 1.0).abs() < 1e-4, "{:?}", p);
         }

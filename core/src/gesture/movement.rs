@@ -4,7 +4,7 @@ use super::frame::HandFrame;
 use super::mapping::STROKES;
 use super::path::{Path, Stroke};
 use super::stroke::{Comparison, Likely, Templates};
-use super::vector;
+use super::vector::{self, Vector};
 use crate::time::Micros;
 
 /// A palm slower than this, mm/s, rests.
@@ -12,6 +12,10 @@ const RESTING: f32 = 100.0;
 
 /// A movement that never gets faster than this, mm/s, is no gesture but a hand being moved.
 const GESTURING: f32 = 300.0;
+
+/// What a palm's speed is averaged over, s: the jitter of a sensor that tells velocities from frame to frame is not
+/// the hand's, nor is its tremor of some 9 Hz.
+const STEADY: f32 = 0.04;
 
 /// A palm that rests for this long has ended its movement; shorter rests are turning points.
 const PAUSE: Micros = Micros::from_millis(90);
@@ -33,6 +37,9 @@ pub struct Movement {
     fast: bool,
     /// Since when it rests.
     resting: Option<Micros>,
+    /// Its velocity, averaged, mm/s, and when that was.
+    velocity: Vector,
+    at: Micros,
     /// When the hand came.
     came: Option<Micros>,
     comparison: Option<Comparison<STROKES>>,
@@ -52,6 +59,8 @@ impl Movement {
             path: Path::new(),
             fast: false,
             resting: None,
+            velocity: [0.0; 3],
+            at: Micros(0),
             came: None,
             comparison: None,
         }
@@ -85,7 +94,7 @@ impl Movement {
     /// Takes one frame, and gives the stroke of a movement that may be a gesture when it has ended.
     pub fn ended(&mut self, clock: Micros, frame: &HandFrame, free: bool) -> Option<Stroke> {
         let came = *self.came.get_or_insert(clock);
-        let speed = vector::length(frame.velocity);
+        let speed = self.speed(clock, frame.velocity);
         if !free {
             self.restart();
         } else if speed > RESTING {
@@ -99,6 +108,16 @@ impl Movement {
             }
         }
         None
+    }
+
+    /// How fast the palm is, tremor and jitter apart.
+    fn speed(&mut self, clock: Micros, velocity: Vector) -> f32 {
+        let seconds = clock.since(self.at).0 as f32 * 1e-6;
+        self.at = clock;
+        let share = seconds / (STEADY + seconds);
+        let change = vector::sub(velocity, self.velocity);
+        self.velocity = vector::add(self.velocity, vector::scale(change, share));
+        vector::length(self.velocity)
     }
 
     fn restart(&mut self) {

@@ -106,6 +106,8 @@ fn millimetres(point: [i16; 3]) -> Vector {
 pub struct Stroke {
     /// The points.
     pub points: [Vector; POINTS],
+    /// How far the end is from the beginning over the way's length, 0..=1: 1 straight on, 0 back again.
+    pub direct: f32,
     /// Logarithm of the way's length, mm.
     pub ln_length: f32,
     /// Logarithm of the duration, s.
@@ -140,8 +142,11 @@ impl Stroke {
         for p in &mut points {
             *p = vector::scale(*p, 1.0 / size);
         }
+        let ends = [points.first(), points.last()].map(|p| p.copied().unwrap_or_default());
+        let [begin, end] = ends;
         Some(Self {
             points,
+            direct: math::clamp_unit(vector::distance(begin, end) * size / length),
             ln_length: math::ln(length),
             ln_seconds: math::ln(seconds.clamp(0.01, 100.0)),
         })

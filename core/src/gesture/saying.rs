@@ -81,7 +81,7 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
         let change = match shape::features(frame) {
             Ok(features) => {
                 let mut probabilities = NETWORK.classify(&features);
-                curl::rule_out(&mut probabilities, frame);
+                curl::rule_out(&mut probabilities, &curl::folds(frame));
                 if self.is_showing() {
                     expect_fist(&mut probabilities);
                 }

@@ -13,15 +13,27 @@ use crate::math;
 /// Points by which two strokes may run ahead of each other.
 const BAND: usize = 3;
 
+/// What a difference in directness weighs, squared, against the shape. Warping brings a wave whose
+/// middle legs are short near to a swipe; their ends tell.
+const DIRECT: f32 = 0.5;
+
 /// Steps of a template's numbers per unit; 127 steps reach 2.6, further than points of strokes get
 /// that are not needles.
 pub const STEPS: f32 = 48.0;
+
+/// The tolerance of a gesture that people perform alike.
+pub const PLAIN: u8 = 16;
 
 /// One example of a gesture, 60 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Template {
     /// Which gesture it is an example of.
     pub gesture: u8,
+    /// How much further than others strokes of this gesture may lie from it, in sixteenths: people
+    /// perform some gestures less alike than others.
+    pub tolerance: u8,
+    /// A stroke's directness in steps of 1/255.
+    pub direct: u8,
     /// A stroke's points in steps of 1/48.
     pub points: [[i8; 3]; POINTS],
     /// Logarithm of its length, mm.
@@ -36,6 +48,8 @@ impl Template {
     pub fn new(gesture: u8, stroke: &Stroke) -> Self {
         Self {
             gesture,
+            tolerance: PLAIN,
+            direct: (stroke.direct * 255.0) as u8,
             points: stroke.points.map(|p| p.map(|x| (x * STEPS) as i8)),
             ln_length: stroke.ln_length,
             ln_seconds: stroke.ln_seconds,
@@ -91,15 +105,20 @@ impl Templates<'_> {
 }
 
 /// The distance of a stroke from a template: squared, per point, warped, with the differences in
-/// length and duration. Gives up, with something at least as large, when it exceeds `worst`. About
+/// length, duration and directness, over the template's tolerance. Gives up, with something at least as large, when
+/// it exceeds `worst`. About
 /// 4,000 instructions; far fewer when it gives up.
 #[must_use]
 pub fn distance(stroke: &Stroke, template: &Template, scale: &Scale, worst: f32) -> f32 {
     let length = stroke.ln_length - template.ln_length;
     let seconds = stroke.ln_seconds - template.ln_seconds;
-    let aside = scale.length * length * length + scale.seconds * seconds * seconds;
-    let limit = (worst - aside) * POINTS as f32;
-    aside + warp(&stroke.points, &template.points, limit) / POINTS as f32
+    let direct = stroke.direct - f32::from(template.direct) * (1.0 / 255.0);
+    let aside = scale.length * length * length
+        + scale.seconds * seconds * seconds
+        + DIRECT * direct * direct;
+    let tolerance = f32::from(template.tolerance.max(1)) * (1.0 / PLAIN as f32);
+    let limit = (worst * tolerance - aside) * POINTS as f32;
+    (aside + warp(&stroke.points, &template.points, limit) / POINTS as f32) / tolerance
 }
 
 /// One row of the table of dynamic time warping at a time. Entry `k` of a row stands for the

@@ -16,6 +16,8 @@
 
 pub mod acting;
 pub mod anatomy;
+mod examples;
+mod fitting;
 pub mod learning;
 pub mod meaning;
 pub mod movement;

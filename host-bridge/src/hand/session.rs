@@ -102,8 +102,10 @@ impl<'a, R: Rng> Session<'a, R> {
     fn act(&mut self, act: &Act, rate: f64) {
         match act {
             Act::Point(target) => {
-                let direction = self.towards(target.map(f64::from));
-                self.change(Shape::Point, direction, rate);
+                let target = self.of_sensor(target.map(f64::from));
+                let miss = self.miss();
+                let aimed = self.aimed(target, miss);
+                self.change(Shape::Point, aimed, rate);
                 self.rest(900.0, rate);
             }
             Act::Show(shape) => {
@@ -123,19 +125,37 @@ impl<'a, R: Rng> Session<'a, R> {
         }
     }
 
-    /// The direction in which the index points when the person aims at a place of the base frame.
-    fn towards(&mut self, target: Point) -> Point {
+    /// A place of the base frame, in m, in the sensor's axes, in mm.
+    fn of_sensor(&self, place: Point) -> Point {
         let origin = self.mount.origin.map(f64::from);
-        let from_mount: Point = std::array::from_fn(|i| 1e3 * (target[i] - origin[i]));
+        let from_mount: Point = std::array::from_fn(|i| 1e3 * (place[i] - origin[i]));
         let axes = self.mount.axes.map(|axis| axis.map(f64::from));
-        let place: Point = axes.map(|axis| dot(axis, from_mount));
-        let exact = unit(std::array::from_fn(|i| place[i] - self.palm[i]));
-        let side = unit(cross(exact, [0.3, 1.0, 0.2]));
-        let up = cross(side, exact);
+        axes.map(|axis| dot(axis, from_mount))
+    }
+
+    /// By how much the person misses this time: tangents to the side and upwards.
+    fn miss(&mut self) -> [f64; 2] {
         let miss = Normal::new(0.0, self.aim);
-        let mut draw = || miss.map_or(0.0, |n| n.sample(self.rng)).tan();
-        let (a, b) = (draw(), draw());
-        unit(std::array::from_fn(|i| exact[i] + a * side[i] + b * up[i]))
+        std::array::from_fn(|_| miss.map_or(0.0, |n| n.sample(self.rng)).tan())
+    }
+
+    /// The direction of the hand whose index finger, not its palm, points at a place, but for the miss.
+    fn aimed(&mut self, target: Point, [aside, upwards]: [f64; 2]) -> Point {
+        let posture = self.posture(Shape::Point);
+        let mut direction = unit(std::array::from_fn(|i| target[i] - self.palm[i]));
+        for _ in 0..12 {
+            let (tip, index) = self.index(&posture, direction);
+            let exact = unit(std::array::from_fn(|i| target[i] - tip[i]));
+            let side = unit(cross(exact, [0.0, 1.0, 0.0]));
+            let up = cross(side, exact);
+            let meant: Point = unit(std::array::from_fn(|i| {
+                exact[i] + aside * side[i] + upwards * up[i]
+            }));
+            direction = unit(std::array::from_fn(|i| {
+                direction[i] + 0.8 * (meant[i] - index[i])
+            }));
+        }
+        direction
     }
 
     fn posture(&mut self, shape: Shape) -> Posture {
@@ -146,19 +166,10 @@ impl<'a, R: Rng> Session<'a, R> {
             .or_insert_with(|| posture::plain(shape, anatomy, rng))
     }
 
-    /// Goes over to another posture and direction. A pointing hand is turned until its index
-    /// finger, not its palm, points.
+    /// Goes over to another posture and direction.
     fn change(&mut self, shape: Shape, direction: Point, rate: f64) {
         let (from, to) = (self.held, self.posture(shape));
-        let (turn_from, mut turn_to) = (self.direction, direction);
-        if shape == Shape::Point {
-            for _ in 0..8 {
-                let index = self.index(&to, turn_to);
-                turn_to = unit(std::array::from_fn(|i| {
-                    turn_to[i] + 0.8 * (direction[i] - index[i])
-                }));
-            }
-        }
+        let (turn_from, turn_to) = (self.direction, direction);
         let steps = (CHANGE * rate / 1e3).ceil().max(1.0);
         for step in 1..=steps as u32 {
             let share = f64::from(step) / steps;
@@ -174,15 +185,14 @@ impl<'a, R: Rng> Session<'a, R> {
         }
     }
 
-    /// Where the index of a hand in this posture points.
-    fn index(&self, posture: &Posture, direction: Point) -> Point {
+    /// Where the index of a hand in this posture ends, and where it points.
+    fn index(&self, posture: &Posture, direction: Point) -> (Point, Point) {
         let frame = self
             .anatomy
             .frame(posture, &self.place(self.palm, direction));
-        frame.fingers[1].map_or(direction, |index| {
-            unit(std::array::from_fn(|i| {
-                f64::from(index.tip[i]) - f64::from(index.knuckle[i])
-            }))
+        frame.fingers[1].map_or((self.palm, direction), |index| {
+            let (tip, knuckle) = (index.tip.map(f64::from), index.knuckle.map(f64::from));
+            (tip, unit(std::array::from_fn(|i| tip[i] - knuckle[i])))
         })
     }
 

@@ -7,6 +7,7 @@ use anyhow::{Context, bail};
 use clap::Subcommand;
 use deictic_core::gesture::shape::Shape;
 use deictic_eval::gestures::hands::{self, Hands, Labelled};
+use deictic_eval::gestures::sessions::Bench;
 use deictic_eval::gestures::{dynamics, statics};
 use serde::Serialize;
 
@@ -23,6 +24,7 @@ enum What {
     Dynamic(Dynamic),
     Train(Train),
     Strokes(Strokes),
+    Sessions(Sessions),
 }
 
 impl Gestures {
@@ -32,6 +34,7 @@ impl Gestures {
             What::Dynamic(command) => command.run(),
             What::Train(command) => command.run(),
             What::Strokes(command) => command.run(),
+            What::Sessions(command) => command.run(),
         }
     }
 }
@@ -241,6 +244,43 @@ impl Strokes {
             for (t, [x, y, z]) in &p.samples {
                 let (who, what, take) = (p.subject, &p.gesture, p.take);
                 println!("p{who},{what},{take},{t:.2},{x:.2},{y:.2},{z:.2}");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whole gesture sessions of made-up people: what share says what was meant, and why others do not.
+///
+/// Everyone shows a sentence by chance with the gestures of deictic's own vocabulary, and points at the things of its
+/// own table. Another seed, other people.
+#[derive(clap::Args)]
+struct Sessions {
+    /// How many
+    #[arg(long, default_value_t = 1_000, value_name = "N")]
+    people: usize,
+    /// The first person's number
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    seed: u64,
+    /// Standard deviation by which they miss what they point at, degrees
+    #[arg(long, default_value_t = 2.0, value_name = "DEGREES")]
+    aim: f64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Sessions {
+    fn run(self) -> anyhow::Result<()> {
+        let score = Bench::new()?.score(self.seed, self.people, self.aim.to_radians());
+        if self.json {
+            return super::print_json(&score);
+        }
+        println!("{:.2} % of {} sessions right", score.accuracy, score.n);
+        for (name, cause) in &score.causes {
+            println!("{:>5} {name}", cause.sessions);
+            for example in &cause.examples {
+                println!("        {example}");
             }
         }
         Ok(())

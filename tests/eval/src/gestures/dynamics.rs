@@ -214,13 +214,17 @@ pub fn made_up(names: &[String], people: usize, takes: usize, seed: u64) -> Vec<
     performed.into_iter().map(seen).collect()
 }
 
+/// Examples of each of the unit's own gestures: with 8, made-up strangers' swipes are now and
+/// then taken for waves, which differ most from person to person.
+const OWN: usize = 12;
+
 /// Templates of the unit's own gestures, from forty made-up people.
 ///
 /// # Errors
 /// Those of [`learn`].
 pub fn own_templates() -> anyhow::Result<Learned> {
     let performances = made_up(&own_names(), 40, 2, 11);
-    Ok(learn(&performances.iter().collect::<Vec<_>>(), 8)?)
+    Ok(learn(&performances.iter().collect::<Vec<_>>(), OWN)?)
 }
 
 /// The templates as Rust source for core/src/gesture/stroke_table.rs.
@@ -249,8 +253,8 @@ pub fn table(learned: &Learned) -> String {
     for t in &learned.templates {
         let _ = writeln!(
             text,
-            "    Template {{ gesture: {}, ln_length: {:.3}, ln_seconds: {:.3}, points: {:?} }},",
-            t.gesture, t.ln_length, t.ln_seconds, t.points
+            "    Template {{ gesture: {}, tolerance: {}, direct: {}, ln_length: {:.3}, ln_seconds: {:.3}, points: {:?} }},",
+            t.gesture, t.tolerance, t.direct, t.ln_length, t.ln_seconds, t.points
         );
     }
     text.push_str("];\n");

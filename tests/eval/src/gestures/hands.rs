@@ -5,8 +5,15 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 use anyhow::{Context, bail};
-use deictic_core::gesture::frame::{Finger, HandFrame, Side};
+use deictic_core::gesture::curl;
+use deictic_core::gesture::frame::{FINGERS, Finger, HandFrame, Side};
 use deictic_core::gesture::shape::{self, FEATURES, Shape};
+
+/// The last bone's length over that of the one before it; 0.7 to 0.75 in people's four fingers.
+const DISTAL: f64 = 0.72;
+
+/// An outer joint bends no further than this, rad, whatever angles that jump say.
+const OUTER: f64 = 1.2;
 
 /// A labelled hand.
 #[derive(Clone, Debug)]
@@ -17,13 +24,16 @@ pub struct Labelled {
     pub recording: u32,
     /// Its features.
     pub features: [f32; FEATURES],
+    /// How far its fingers are folded, as far as the file tells.
+    pub folds: [Option<f32>; FINGERS],
 }
 
 /// What a file of hands holds.
 #[derive(Debug)]
 pub enum Hands {
-    /// Shapes with labels: columns `label`, `recording` and the 15 distances `d_T-I_mm`, ... Labels
-    /// that the unit has no shape for are *none of these*.
+    /// Shapes with labels: columns `label`, `recording` and the 15 distances `d_T-I_mm`, ...; and, where
+    /// they are, the angles of the joints, `index_b2_pitch`, ... in rad. Labels that the unit has no shape
+    /// for are *none of these*.
     Labelled(Vec<Labelled>),
     /// Frames by recording and hand, in the order of time: columns as in `leapjs_frames.csv.xz`.
     Frames(BTreeMap<String, Vec<HandFrame>>),
@@ -139,9 +149,29 @@ fn labelled(
             shape: shape.unwrap_or(Shape::None),
             recording: row.number("recording")?,
             features,
+            folds: folds(&row),
         });
     }
     Ok(hands)
+}
+
+/// How far the fingers are folded by the angles between their bones, pitch and yaw, whose cosines' product
+/// is the bend's cosine: the second bone's at the middle joint, the third's at the outer one. The thumb's
+/// bones do not tell. Nothing without these columns.
+fn folds(row: &Row<'_>) -> [Option<f32>; FINGERS] {
+    let bend = |finger: &str, bone: usize| -> Option<f64> {
+        let angle = |axis: &str| row.number::<f64>(&format!("{finger}_b{bone}_{axis}")).ok();
+        Some((angle("pitch")?.cos() * angle("yaw")?.cos()).acos())
+    };
+    ["thumb", "index", "middle", "ring", "pinky"].map(|finger| {
+        if finger == "thumb" {
+            return None;
+        }
+        let (middle, outer) = (bend(finger, 2)?, bend(finger, 3)?.min(OUTER));
+        // From the second bone to the line from its begin to the tip.
+        let aside = f64::atan2(DISTAL * outer.sin(), 1.0 + DISTAL * outer.cos());
+        Some(curl::folded_by((middle + aside).cos() as f32))
+    })
 }
 
 fn frames(

@@ -8,4 +8,5 @@
 pub mod dynamics;
 pub mod hands;
 pub mod network;
+pub mod sessions;
 pub mod statics;

@@ -7,7 +7,7 @@ use deictic::hand::anatomy::{Anatomy, Place};
 use deictic::hand::posture;
 use deictic_core::gesture::curl;
 use deictic_core::gesture::evidence::{Change, Evidence, Settings};
-use deictic_core::gesture::frame::{HandFrame, Side};
+use deictic_core::gesture::frame::{FINGERS, HandFrame, Side};
 use deictic_core::gesture::shape::{self, Network, SHAPES, Shape};
 use deictic_core::math;
 use deictic_core::time::Micros;
@@ -24,7 +24,7 @@ use super::network::{Example, Recipe, tempered, train};
 const PEOPLE: usize = 1_200;
 
 /// All recordings together count this many times as much as the made-up people of the shapes.
-const RECORDED_WEIGHT: f64 = 3.0;
+const RECORDED_WEIGHT: f64 = 8.0;
 
 /// Parts of the recordings that judge each other's labels.
 const INNER_FOLDS: usize = 4;
@@ -58,6 +58,7 @@ pub fn made_up(people: usize, seed: u64) -> Vec<Labelled> {
                     shape,
                     recording: 0,
                     features,
+                    folds: [None; FINGERS],
                 });
             }
         }
@@ -227,10 +228,14 @@ pub fn score(answers: &[(Shape, u32, [f32; SHAPES])]) -> Score {
     score
 }
 
-/// Answers of a network.
+/// What the unit makes of hands: a network's answers, without what the fingers rule out.
 #[must_use]
 pub fn answers(network: &Network, hands: &[&Labelled]) -> Vec<(Shape, u32, [f32; SHAPES])> {
-    let answer = |hand: &&Labelled| (hand.shape, hand.recording, network.classify(&hand.features));
+    let answer = |hand: &&Labelled| {
+        let mut probabilities = network.classify(&hand.features);
+        curl::rule_out(&mut probabilities, &hand.folds);
+        (hand.shape, hand.recording, probabilities)
+    };
     hands.iter().map(answer).collect()
 }
 
@@ -288,7 +293,7 @@ pub fn tell(network: &Network, frames: &[HandFrame]) -> Told {
             continue;
         };
         let mut probabilities = network.classify(&features);
-        curl::rule_out(&mut probabilities, frame);
+        curl::rule_out(&mut probabilities, &curl::folds(frame));
         let now = Micros(u64::from(frame.time.wrapping_sub(first)));
         let seconds = frame.time.wrapping_sub(before) as f32 * 1e-6;
         before = frame.time;
