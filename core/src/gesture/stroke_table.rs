@@ -12,7 +12,16 @@ pub const SCALE: Scale = Scale {
 };
 
 /// The gestures, by the number that templates carry.
-pub const NAMES: [&str; 8] = ["circle", "swipe-backward", "swipe-down", "swipe-forward", "swipe-left", "swipe-right", "swipe-up", "wave"];
+pub const NAMES: [&str; 8] = [
+    "circle",
+    "swipe-backward",
+    "swipe-down",
+    "swipe-forward",
+    "swipe-left",
+    "swipe-right",
+    "swipe-up",
+    "wave",
+];
 
 /// Examples of each gesture.
 #[rustfmt::skip]
