@@ -76,6 +76,27 @@ fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
         "{forbidden:?}"
     );
     assert_eq!(hear("yes", Expected::Answer).best(), "yes");
+    for talk in ["the weather is lovely today", "my sister bought a new car"] {
+        let heard = hear(talk, Expected::Command);
+        assert_eq!(heard.best(), "", "{heard:?}");
+        assert!(listener.hear(&heard).unwrap().commands.is_empty());
+        assert_eq!(hear(talk, Expected::Answer).certain(RISK), None);
+    }
+}
+
+#[test]
+fn what_may_have_been_talk_is_to_be_said_again() {
+    let lexicon = Lexicon::tabletop().unwrap();
+    let listener = Listener::new(&lexicon).unwrap();
+    let spoken = |talk: f64| Spoken {
+        alternatives: vec![
+            ("pick the cup".to_owned(), 1.0 - talk),
+            (String::new(), talk),
+        ],
+    };
+    assert_eq!(listener.hear(&spoken(0.001)).unwrap().commands.len(), 1);
+    let unclear = listener.hear(&spoken(0.2)).unwrap_err();
+    assert!(unclear.to_string().contains("pick the cup"), "{unclear}");
 }
 
 #[test]

@@ -157,6 +157,10 @@ impl<'a> Conversation<'a> {
 
     fn heard(&mut self, session: &mut Session<'_>, spoken: &Spoken) {
         let text = spoken.best();
+        if text.is_empty() {
+            self.printer.nothing("somebody talks, and it is no command");
+            return;
+        }
         let sure = spoken.certain(self.listener.risk).and_then(Order::of);
         if let Some(order) = sure.filter(|_| session.question().is_none()) {
             self.printer.spoken(spoken);

@@ -16,7 +16,8 @@ use super::{Command, Listener, Utterance};
 /// What was heard of one utterance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spoken {
-    /// The texts with their probabilities, 0..=1, summing to 1.
+    /// The texts with their probabilities, 0..=1, summing to 1. An empty one stands for whatever may
+    /// have been said that is no command.
     pub alternatives: Vec<(String, f64)>,
 }
 
@@ -79,7 +80,8 @@ impl Spoken {
     #[must_use]
     pub fn certain(&self, risk: f64) -> Option<&str> {
         let best = self.alternatives.first()?;
-        (best.1 >= 1.0 - risk).then_some(best.0.as_str())
+        let clear = best.1 >= 1.0 - risk && !best.0.is_empty();
+        clear.then_some(best.0.as_str())
     }
 
     fn of_shares(mut alternatives: Vec<(String, f64)>) -> Result<Self, LanguageError> {
@@ -105,7 +107,12 @@ impl Listener<'_> {
         let mut heard: Vec<(Utterance, f64)> = Vec::new();
         let mut error = LanguageError::Empty;
         for (text, share) in spoken.alternatives.iter().rev() {
-            match self.understand(text) {
+            let understood = match text.is_empty() {
+                // Something was said that is no command.
+                true => Ok(Utterance::default()),
+                false => self.understand(text),
+            };
+            match understood {
                 // Wordings of one meaning are one alternative, as probable as the best of them.
                 Ok(utterance) => match heard.iter_mut().find(|(u, _)| same(u, &utterance)) {
                     Some(known) => known.1 = known.1.max(*share),
@@ -129,11 +136,8 @@ impl Listener<'_> {
         }
         // Stopping harms nobody, so it needs no such caution.
         if idle > self.risk * all && !self.is_stop(best) {
-            let text = spoken
-                .alternatives
-                .first()
-                .map(|a| a.0.clone())
-                .unwrap_or_default();
+            let mut texts = spoken.alternatives.iter().map(|a| &a.0);
+            let text = texts.find(|t| !t.is_empty()).cloned().unwrap_or_default();
             return Err(LanguageError::Unclear { text });
         }
         let count = best.commands.len();

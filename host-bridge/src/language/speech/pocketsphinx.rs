@@ -4,13 +4,15 @@ use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use tempfile::TempDir;
 
+use super::anything;
 use super::jsgf::{Only, Phrases};
+use super::program::{file, run, write};
 use super::pronounce::Dictionary;
 use super::sound::{self, Colour};
 use crate::language::pack::Pack;
@@ -102,6 +104,8 @@ pub struct Pocketsphinx {
     left_out: Vec<String>,
     commands: Vec<PathBuf>,
     answers: Vec<PathBuf>,
+    /// Of whatever else may be said.
+    anything: PathBuf,
     takes: AtomicUsize,
 }
 
@@ -124,7 +128,10 @@ impl Pocketsphinx {
         let phrases = Phrases::new(lexicon, pack, pronounced).ok_or(SpeechError::NoGrammar)?;
         let folder = TempDir::new().map_err(file(Path::new("temporary folder")))?;
         let known = phrases.words().into_iter().filter(|w| dictionary.knows(w));
-        write(&folder.path().join("words"), &dictionary.part(known))?;
+        let words = dictionary.part(known) + &anything::dictionary();
+        write(&folder.path().join("words"), &words)?;
+        let anything = folder.path().join("anything.gram");
+        write(&anything, &anything::grammar())?;
         let mut files = 0;
         let mut all = |list: Vec<Only>| {
             let grammars = list.into_iter().filter_map(|only| phrases.grammar(only));
@@ -142,6 +149,7 @@ impl Pocketsphinx {
             left_out: phrases.left_out().to_vec(),
             commands,
             answers,
+            anything,
             takes: AtomicUsize::new(0),
         })
     }
@@ -178,7 +186,8 @@ impl Pocketsphinx {
         Spoken::of_scores(near.cloned().collect(), scale)
     }
 
-    /// The best text under every restriction, with the recogniser's score.
+    /// The best text under every restriction, with the recogniser's score; and an empty text, for what
+    /// is no command, with the score that commands must beat.
     ///
     /// # Errors
     /// [`SpeechError`].
@@ -191,6 +200,7 @@ impl Pocketsphinx {
         let folder = self.folder.path().join(format!("take{take}"));
         fs::create_dir(&folder).map_err(file(&folder))?;
         let said = folder.join("said.raw");
+        let length = samples.len();
         let samples = sound::prepared(samples, Colour::Pink, COMFORT);
         sound::write(&said, &samples).map_err(file(&said))?;
         write(&folder.join("list"), "said\n")?;
@@ -212,9 +222,13 @@ impl Pocketsphinx {
             let results = workers.into_iter().filter_map(|w| w.join().ok());
             results.collect::<Result<Vec<_>, SpeechError>>()
         })?;
+        let other = self.best(&folder, &self.anything)?;
         // A folder that stays is removed with its parent.
         let _ = fs::remove_dir_all(&folder);
         let mut best: HashMap<String, f64> = HashMap::new();
+        if let Some((_, score)) = other {
+            best.insert(String::new(), anything::bar(score, length));
+        }
         for (text, score) in heard.into_iter().flatten() {
             let known = best.entry(text).or_insert(score);
             *known = known.max(score);
@@ -255,55 +269,4 @@ impl Pocketsphinx {
             (!text.is_empty()).then_some((text.to_owned(), score.parse().ok()?))
         }))
     }
-}
-
-/// The samples of a recording, any that sox reads.
-///
-/// # Errors
-/// [`SpeechError`].
-pub fn samples(recording: &Path) -> Result<Vec<i16>, SpeechError> {
-    fs::metadata(recording).map_err(file(recording))?;
-    let rate = sound::RATE.to_string();
-    let mut command = Command::new("sox");
-    command.arg("-R").arg(recording);
-    command.args([
-        "-t",
-        "raw",
-        "-r",
-        rate.as_str(),
-        "-c",
-        "1",
-        "-b",
-        "16",
-        "-e",
-        "signed",
-        "-",
-    ]);
-    run("sox", &mut command).map(|bytes| sound::of_bytes(&bytes))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), SpeechError> {
-    fs::write(path, text).map_err(file(path))
-}
-
-fn file(path: &Path) -> impl FnOnce(io::Error) -> SpeechError + use<> {
-    let path = path.to_owned();
-    move |source| SpeechError::File { path, source }
-}
-
-/// Runs a program; what it wrote on standard output.
-fn run(program: &str, command: &mut Command) -> Result<Vec<u8>, SpeechError> {
-    let failed = |why: String| SpeechError::Program {
-        program: program.to_owned(),
-        why,
-    };
-    let command = command.stdin(Stdio::null()).stderr(Stdio::piped());
-    let output = command.output().map_err(|e| failed(e.to_string()))?;
-    if output.status.success() {
-        return Ok(output.stdout);
-    }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    Err(failed(
-        said.lines().last().unwrap_or("it failed").to_owned(),
-    ))
 }
