@@ -52,6 +52,7 @@ impl Versions {
             .current_dir(&place);
         process::run(&mut resolve)
             .context("the least versions in the manifests contradict each other")?;
+        // In a folder of its own: cargo takes what two copies of one workspace build for the same.
         let mut check = cargo();
         check
             .args([
@@ -62,7 +63,7 @@ impl Versions {
                 "deictic-firmware",
                 "--all-targets",
             ])
-            .env("CARGO_TARGET_DIR", process::target())
+            .env("CARGO_TARGET_DIR", place.join("target"))
             .current_dir(&place);
         process::run(&mut check)?;
         println!("Rust {stated} and the least version of every library will do");
