@@ -36,7 +36,8 @@ impl Versions {
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
             "Cargo.toml says that Rust {stated} will do, and Rust {used} is what it is tested with"
         );
-        let place = process::target().join("least-versions");
+        let folder = process::target().join("least-versions");
+        let place = folder.join("workspace");
         if place.exists() {
             fs::remove_dir_all(&place)?;
         }
@@ -63,7 +64,7 @@ impl Versions {
                 "deictic-firmware",
                 "--all-targets",
             ])
-            .env("CARGO_TARGET_DIR", place.join("target"))
+            .env("CARGO_TARGET_DIR", folder.join("build"))
             .current_dir(&place);
         process::run(&mut check)?;
         println!("Rust {stated} and the least version of every library will do");
