@@ -52,7 +52,7 @@ pub fn confirm(p: f32, noise: f32) -> f32 {
 }
 
 /// The gain of naming an option of these probabilities; what they lack of 1 is no option at all. Only
-/// options above [`LIKELY`] count as what could be mistaken for each other: an answer that sounds like
+/// options above `LIKELY` count as what could be mistaken for each other: an answer that sounds like
 /// an improbable one is not believed.
 #[must_use]
 #[inline(never)]

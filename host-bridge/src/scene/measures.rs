@@ -23,7 +23,7 @@ impl Measures {
     /// Whether they can be.
     ///
     /// # Errors
-    /// [`BadMeasure`]: every one is above 0 and at most [`Measures::MOST`], but `liquid`, which is in 0 to `holds`.
+    /// `BadMeasure`: every one is above 0 and at most [`Measures::MOST`], but `liquid`, which is in 0 to `holds`.
     pub fn check(&self) -> Result<(), BadMeasure> {
         let sound = |x: f32| x > 0.0 && x <= Self::MOST;
         for (name, measure) in [("mass", self.mass), ("holds", self.holds)] {
