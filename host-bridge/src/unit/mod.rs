@@ -5,6 +5,7 @@
 mod conversation;
 mod error;
 mod event;
+mod loading;
 mod trust;
 
 use std::time::{Duration, Instant};
