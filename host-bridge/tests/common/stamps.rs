@@ -120,15 +120,20 @@ pub struct Shares {
 }
 
 impl Shares {
-    /// Takes over the moments of a command; `None` when one is missing.
-    pub fn take(&mut self, stamps: &Stamps) -> Option<()> {
+    /// Takes over the moments of a command, if it was accepted.
+    pub fn take(&mut self, stamps: &Stamps) {
         let moments = *stamps.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let (decided, told) = (moments.decided?, moments.told?);
-        let line = moments.accepted? - moments.given?;
-        let whole = told - decided;
-        self.whole.push(whole.as_micros());
-        self.bridge.push(whole.saturating_sub(line).as_micros());
-        Some(())
+        if let Moments {
+            decided: Some(decided),
+            given: Some(given),
+            accepted: Some(accepted),
+            told: Some(told),
+        } = moments
+        {
+            let (whole, line) = (told - decided, accepted - given);
+            self.whole.push(whole.as_micros());
+            self.bridge.push(whole.saturating_sub(line).as_micros());
+        }
     }
 
     /// How many there are.

@@ -52,11 +52,11 @@ impl Latency {
             ensure!(output.status.success(), "the measurement failed");
             Ok(String::from_utf8_lossy(&output.stdout).into_owned())
         };
-        let mut printed = here(false)?;
+        self.print(&here(false)?)?;
         if !guest::is_possible() {
             eprintln!("skipped can:{INTERFACE}: {}", guest::MISSING);
         } else if guest::has_can() {
-            printed += &here(true)?;
+            self.print(&here(true)?)?;
         } else {
             let lines = format!(
                 "export DEICTIC_CAN={INTERFACE} DEICTIC_COMMANDS={}\n'{}' --nocapture --test-threads 1",
@@ -64,8 +64,12 @@ impl Latency {
                 test.display()
             );
             // A command takes a few milliseconds, and a guest on a busy machine several times that.
-            printed += &guest::run(&lines, None, 120 + self.commands / 20)?;
+            self.print(&guest::run(&lines, None, 120 + self.commands / 20)?)?;
         }
+        Ok(())
+    }
+
+    fn print(&self, printed: &str) -> Result<()> {
         let told = printed
             .lines()
             .filter_map(|line| line.find('{').and_then(|at| line.get(at..)))

@@ -9,6 +9,7 @@ use crate::cmd::{budget::Budget, can::Can, growth::Growth, setup};
 use crate::guest;
 use crate::process::{self, cargo};
 use crate::qemu::{self, Link};
+use crate::robots::{self, Bridge, Wanted};
 use crate::toolchain::Toolchain;
 
 /// Check everything: formatting, lints, all tests, both images, budgets.
@@ -57,6 +58,14 @@ impl Test {
         step("the robot's links on a CAN bus");
         if guest::is_possible() {
             Can.run()?;
+            step("the demo on a CAN bus, decided by the emulated board");
+            let image = board::build(&toolchain, Board::Mps2An386)?;
+            let wanted = Wanted {
+                json: false,
+                required: true,
+            };
+            let links = [robots::Link::Inside, robots::Link::Can];
+            robots::compare(&Bridge::build(Some(image))?, &links, &wanted)?;
         } else {
             eprintln!("skipped: {}", guest::MISSING);
         }
