@@ -46,8 +46,6 @@ pub enum Kind {
     Which,
     /// Yes or no to the whole likeliest intent, [`Decision::best`].
     Confirm,
-    /// Everything once more; what was said and shown stays.
-    Again,
 }
 
 /// A question about one category.

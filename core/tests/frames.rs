@@ -58,6 +58,7 @@ fn decided(outcome: Outcome<8>, best: Option<Intent<8>>) -> ToHost {
         vocabulary: 0xdec1_c71c,
         scene: 3,
         modalities: 0b11,
+        questions_left: 1,
         decision: Decision { outcome, best },
     })
 }
@@ -113,6 +114,13 @@ fn to_unit() -> Vec<(&'static str, ToUnit)> {
         ("sentence", sentence(None)),
         ("answer", sentence(Some(7))),
         ("ask-statistics", ToUnit::AskStatistics),
+        (
+            "yes-or-no",
+            ToUnit::Answer(Answer {
+                question: 7,
+                likelihoods: [1.0, 0.25].into_iter().collect(),
+            }),
+        ),
     ];
     samples.extend(hand_to_unit());
     for (name, state) in [
@@ -256,10 +264,14 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
     let three = |a: f32| [a, 0.5, 1.0].into_iter().collect();
     let question = Question {
         kind: Kind::Which,
-        action: None,
+        action: Some(POUR),
         category: Category::OBJECT,
         reason: Reason::Infeasible,
         candidates: [CAN, BOX].into_iter().collect(),
+    };
+    let confirm = Question {
+        kind: Kind::Confirm,
+        ..question.clone()
     };
     let why = Why {
         number: 7,
@@ -291,8 +303,10 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
             "execute",
             decided(Outcome::Execute(intent()), Some(intent())),
         ),
+        ("confirm", decided(Outcome::Ask(confirm), Some(intent()))),
         ("ask", decided(Outcome::Ask(question), Some(intent()))),
         ("repeat", decided(Outcome::Repeat, None)),
+        ("give-up", decided(Outcome::GiveUp, Some(intent()))),
         ("why", ToHost::Why(why)),
         ("why-actions", ToHost::WhyActions(why_actions)),
         ("statistics", ToHost::Statistics(statistics)),
@@ -355,6 +369,7 @@ fn to_host() -> Vec<(&'static str, ToHost)> {
             Fault::Configuration(ProfileError::FixedThresholds),
         ),
         ("fault-no-question", Fault::NoQuestion { decision: 6 }),
+        ("fault-answer", Fault::Answer { expected: 2 }),
         ("fault-host-lost", Fault::HostLost),
         ("fault-not-proven", Fault::NotProven),
         (

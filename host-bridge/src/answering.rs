@@ -1,10 +1,13 @@
 //! The person's answer to the unit's question, from what they typed.
 
 use deictic_core::category::Category;
-use deictic_core::decide::Question;
+use deictic_core::decide::{Kind, Question};
 use deictic_core::large::{Sentence, Word};
 use deictic_core::sentence::{LANGUAGE, SentenceError};
 
+use crate::language::likeness::Ear;
+use crate::language::pack::Pack;
+use crate::language::token::fold;
 use crate::language::{LanguageError, Listener};
 use crate::understanding::{self, Understood};
 use crate::vocabulary::Lexicon;
@@ -14,6 +17,8 @@ use crate::vocabulary::Lexicon;
 pub enum Reply {
     /// It answers the question.
     Answer(Box<Sentence>),
+    /// It sounds like yes and like no this much, 0..=1, where that is what was asked for.
+    YesOrNo([f32; 2]),
     /// It is a command of its own, and the question is forgotten.
     Command(Understood),
     /// Nothing of what was asked about is meant.
@@ -33,6 +38,11 @@ pub fn reply(
 ) -> Result<Reply, LanguageError> {
     let said = text.trim().trim_matches(['.', '!', ',']).to_lowercase();
     let category = question.category;
+    if question.kind == Kind::Confirm
+        && let Some(likelihoods) = yes_or_no(&said, lexicon)
+    {
+        return Ok(Reply::YesOrNo(likelihoods));
+    }
     if said == "no" || said == "none" || said == "neither" {
         return Ok(Reply::Neither);
     }
@@ -71,6 +81,30 @@ pub fn reply(
         }
     }
     Ok(Reply::Command(understanding::of(text, utterance)))
+}
+
+/// How alike something has to be to a yes or a no to be one.
+const ALIKE: f64 = 0.6;
+
+/// How much a text sounds like a yes and like a no in the vocabulary's language; `None` when like
+/// neither. Of several words the first says it: "yes, please".
+#[must_use]
+pub fn yes_or_no(said: &str, lexicon: &Lexicon) -> Option<[f32; 2]> {
+    let pack = Pack::of(lexicon.language()).ok()?;
+    let speech = pack.speech.as_ref()?;
+    let ear = Ear::new(pack.phonetic);
+    let first = said
+        .split(|c: char| !c.is_alphanumeric())
+        .find(|w| !w.is_empty())?;
+    let heard = [ear.listen(&fold(said)), ear.listen(&fold(first))];
+    let likeness = |words: &[String]| {
+        let sounds = words.iter().map(|word| ear.listen(&fold(word)));
+        sounds
+            .flat_map(|sound| heard.each_ref().map(|heard| ear.likeness(heard, &sound)))
+            .fold(0.0, f64::max)
+    };
+    let [yes, no] = [likeness(&speech.yes), likeness(&speech.no)];
+    (yes.max(no) >= ALIKE).then_some([yes as f32, no as f32])
 }
 
 /// A sentence of one word that is certainly this option.
@@ -146,6 +180,30 @@ mod tests {
         let listener = Listener::new(&lexicon).unwrap();
         let no = reply("no", &bowl, &listener, &lexicon);
         assert_eq!(no, Ok(Reply::Neither));
+    }
+
+    #[test]
+    fn a_yes_or_no_is_heard_as_likelihoods() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        let confirm = Question {
+            kind: Kind::Confirm,
+            ..ask(Category::OBJECT, &[0, 1])
+        };
+        let heard = |text| reply(text, &confirm, &listener, &lexicon).unwrap();
+        for (text, is_yes) in [
+            ("yes", true),
+            ("Yes, please.", true),
+            ("yess", true),
+            ("no", false),
+        ] {
+            let Reply::YesOrNo([yes, no]) = heard(text) else {
+                panic!("{text}")
+            };
+            assert_eq!(yes > no, is_yes, "{text}: {yes} {no}");
+        }
+        assert!(matches!(heard("the cup"), Reply::Answer(_)));
+        assert!(matches!(heard("push the box"), Reply::Command(_)));
     }
 
     #[test]

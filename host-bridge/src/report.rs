@@ -1,7 +1,7 @@
 //! Decisions in a form for programs: what `--json` prints.
 
 use deictic_core::category::Category;
-use deictic_core::decide::{Outcome, Question, Reason};
+use deictic_core::decide::{Kind, Outcome, Question, Reason};
 use deictic_core::large;
 use serde::Serialize;
 
@@ -44,6 +44,10 @@ pub struct ParameterReport {
 /// A question by names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct QuestionReport {
+    /// The kind of answer: `confirm` for yes or no, `which` for an option.
+    pub kind: &'static str,
+    /// The action it is about; `null` when the action itself is asked for.
+    pub action: Option<String>,
     /// What is asked for.
     pub category: String,
     /// Why.
@@ -95,6 +99,15 @@ pub fn decision(
     }
 }
 
+/// The kind of a question's answer.
+#[must_use]
+pub fn kind(question: &Question) -> &'static str {
+    match question.kind {
+        Kind::Which => "which",
+        Kind::Confirm => "confirm",
+    }
+}
+
 fn question(
     question: &Question,
     best: Option<&large::Intent>,
@@ -103,6 +116,10 @@ fn question(
     lexicon: &Lexicon,
 ) -> QuestionReport {
     QuestionReport {
+        kind: kind(question),
+        action: question
+            .action
+            .map(|action| lexicon.option_name(Category::ACTION, action)),
         category: lexicon.category_name(question.category),
         reason: match question.reason {
             Reason::SeveralClear => "several-clear",

@@ -18,10 +18,11 @@ use crate::math::{self, larger};
 
 /// What a yes or a no costs the person: a word ...
 pub const CONFIRM: f32 = 1.0;
-/// ... a name, which one has to think of or to hear from a list ...
+/// ... and a name, which one has to think of or to pick from a list.
+///
+/// Everything once more would cost six words, tells less than either about what is in doubt
+/// (`deictic-eval clarify`), and is asked for when nothing was understood only.
 pub const WHICH: f32 = 1.25;
-/// ... and everything once more, said and shown.
-pub const REPEAT: f32 = 6.0;
 
 /// An option less probable than this is not taken for the answer.
 const LIKELY: f32 = 0.03;

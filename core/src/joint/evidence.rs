@@ -273,6 +273,7 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
     pub(crate) fn solve<const F: usize>(
         &mut self,
         vocabulary: &Vocabulary<N, C, F>,
+        sensors: Tables<'_>,
         confirmations: &[Confirmation],
         categories: &mut [CategoryTrace<N>; C],
     ) -> Option<Found> {
@@ -326,7 +327,7 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
             posterior.solve(self.work.weighed.as_flattened_mut(), &mut marginals)?
         } else {
             let heard = confirmations.iter().map(|answer| {
-                let [it, others] = yes_or_no(answer.likelihoods);
+                let [it, others] = yes_or_no(sensors, answer.likelihoods);
                 Heard {
                     asked: answer.asked,
                     it,
@@ -350,10 +351,15 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
     }
 }
 
-/// What a word of two options costs each of them.
+/// What a yes or a no costs: a word of two options, from whatever reports the answers that name actions.
 #[inline(never)]
-fn yes_or_no(likelihoods: [f32; 2]) -> [Costs; 2] {
+fn yes_or_no(sensors: Tables<'_>, likelihoods: [f32; 2]) -> [Costs; 2] {
     let mut costs = [Costs::ZERO; 2];
+    let weight = word::in_256ths(1.0);
+    if let Sensor::Likelihoods = sensors.sensor(ANSWER, Category::ACTION, 2) {
+        Likely::new(&likelihoods, weight, true).add(&mut costs);
+        return costs;
+    }
     let mut room = Room {
         elements: &mut [Element::NONE; 2],
         sums: &mut [Costs::ZERO; 2],
@@ -364,7 +370,7 @@ fn yes_or_no(likelihoods: [f32; 2]) -> [Costs; 2] {
         likelihoods: &likelihoods,
         rows: Tables::NONE.rows(ANSWER, Category::ACTION, 2),
         live: &[0, 1],
-        weight: word::in_256ths(1.0),
+        weight,
         first: true,
     };
     word::parameter(&reading, &mut room, &mut costs);

@@ -150,7 +150,12 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
             }
         }
     }
-    let found = evidence.solve(vocabulary, observations.confirmations(), categories);
+    let found = evidence.solve(
+        vocabulary,
+        sensors,
+        observations.confirmations(),
+        categories,
+    );
     Ok(outcome::outcome(situation, profile, found, trace))
 }
 

@@ -59,6 +59,8 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     Prove(Proof),
     /// What a sensor reports, a row of its table at a time.
     Sensor(SensorPart<N>),
+    /// How the answer to a question sounded.
+    Answer(Answer<N>),
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
@@ -266,6 +268,16 @@ pub struct SensorRow<const N: usize> {
     pub likelihoods: Vec<u8, N>,
 }
 
+/// The answer to an open question, as likelihoods.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Answer<const N: usize> {
+    /// The number of the decision that asked.
+    pub question: u32,
+    /// How likely it sounded like each answer, 0..=1: yes and no of [`crate::decide::Kind::Confirm`],
+    /// the category's options of [`crate::decide::Kind::Which`].
+    pub likelihoods: Vec<f32, N>,
+}
+
 /// How the robot fares with a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RobotStatus {
@@ -325,6 +337,9 @@ pub struct Decided<const C: usize> {
     pub scene: u32,
     /// The modalities it draws on, one bit each.
     pub modalities: u8,
+    /// How many more questions may be asked about the command after this one, if it is one; of models
+    /// that do not count them as many as the profile has.
+    pub questions_left: u8,
     /// What to do now.
     pub decision: Decision<C>,
 }
@@ -420,6 +435,11 @@ pub enum Fault {
     NotProven,
     /// A row of a sensor's table cannot be.
     Sensor(SensorError),
+    /// An answer is not one likelihood in 0..=1 per possible answer; the question stays open.
+    Answer {
+        /// How many there are: two of a yes or no, the options of the category otherwise.
+        expected: u8,
+    },
 }
 
 /// What a unit has counted since it started.

@@ -262,6 +262,7 @@ impl<
                 self.moving = matches!(status.state, RobotState::Running(_));
                 Ok(())
             }
+            ToUnit::Answer(answer) => self.take_answer(now, answer),
             ToUnit::AskStatistics => {
                 self.send(&ToHost::Statistics(self.statistics()));
                 Ok(())

@@ -6,12 +6,14 @@ use heapless::Vec;
 use super::Unit;
 use super::loading::in_order;
 use crate::category::Category;
-use crate::decide::{Decision, Outcome};
+use crate::clarify::Confirmation;
+use crate::decide::{Decision, Kind, Outcome};
 use crate::fuse::{Situation, fuse, says_clearly};
 use crate::intent::Intent;
+use crate::joint::posterior::Triple;
 use crate::observations::Observations;
-use crate::protocol::message::{Decided, Fault, SentencePart, ToHost, Why, WhyActions};
-use crate::sentence::{ANSWER, GESTURE, Sentence};
+use crate::protocol::message::{Answer, Decided, Fault, SentencePart, ToHost, Why, WhyActions};
+use crate::sentence::{ANSWER, GESTURE, Sentence, Word};
 use crate::time::Micros;
 
 /// How long a decision waits for a hand that is in the middle of a sentence, from the first sentence
@@ -33,6 +35,19 @@ pub(super) enum Source {
     Hand,
 }
 
+/// A question that is open.
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    /// The number of the decision that asked.
+    number: u32,
+    /// Until when its answer is taken.
+    until: Micros,
+    kind: Kind,
+    category: Category,
+    /// The intent that a yes or no speaks of.
+    about: Option<Triple>,
+}
+
 /// Sentences that wait for others, or for an answer.
 #[derive(Debug)]
 pub struct Pairing<const N: usize, const C: usize, const W: usize> {
@@ -45,8 +60,7 @@ pub struct Pairing<const N: usize, const C: usize, const W: usize> {
     due: Micros,
     /// Until when a hand that is in the middle of a sentence is waited for.
     patience: Micros,
-    /// The decision that asked, and until when its answer is taken.
-    question: Option<(u32, Micros)>,
+    question: Option<Open>,
     numbered: u32,
 }
 
@@ -180,8 +194,8 @@ impl<
 
     /// The number of the decision whose question is open.
     pub(super) fn question(&self, now: Micros) -> Option<u32> {
-        let (number, until) = self.pairing.question?;
-        (now < until).then_some(number)
+        let open = self.pairing.question?;
+        (now < open.until).then_some(open.number)
     }
 
     /// Looks at the sentence that has arrived: a clear stop is told at once, the last one expected
@@ -253,7 +267,7 @@ impl<
             Source::Hand => self.hand.said(),
         };
         match *question {
-            Some((asked, until)) if asked == decision && now < until => {}
+            Some(open) if open.number == decision && now < open.until => {}
             _ => return Err(Fault::NoQuestion { decision }),
         }
         let appended = observations.answer(arrived, vocabulary);
@@ -263,6 +277,52 @@ impl<
         })?;
         *due = now;
         *patience = Micros(0);
+        Ok(())
+    }
+
+    /// Takes an answer as likelihoods. A yes or no is fused at once; what names an option is a word of
+    /// an answer, looked at when the message is out of the way.
+    ///
+    /// # Errors
+    /// [`Fault`]; the question stays open.
+    pub(super) fn take_answer(&mut self, now: Micros, answer: &Answer<N>) -> Result<(), Fault> {
+        let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
+        let decision = answer.question;
+        let open = self.pairing.question;
+        let open = open.filter(|open| open.number == decision && now < open.until);
+        let open = open.ok_or(Fault::NoQuestion { decision })?;
+        let likelihoods = &answer.likelihoods[..];
+        let expected = match open.kind {
+            Kind::Confirm => 2,
+            Kind::Which => vocabulary.options_of(open.category),
+        };
+        let sound = likelihoods.iter().all(|p| (0.0..=1.0).contains(p));
+        if likelihoods.len() != expected || !sound {
+            let expected = u8::try_from(expected).unwrap_or(u8::MAX);
+            return Err(Fault::Answer { expected });
+        }
+        let pairing = &mut self.pairing;
+        match (open.kind, likelihoods, open.about) {
+            (Kind::Confirm, &[yes, no], Some(asked)) => {
+                pairing.observations.confirm(Confirmation {
+                    asked,
+                    likelihoods: [yes, no],
+                });
+                pairing.due = now;
+                pairing.patience = Micros(0);
+            }
+            _ => {
+                let refused = |error| Fault::Sentence {
+                    modality: ANSWER,
+                    error,
+                };
+                let word = Word::certain(open.category, likelihoods).map_err(refused)?;
+                pairing.arriving.restart(ANSWER);
+                pairing.arriving.push(word).map_err(refused)?;
+                pairing.answers = Some(decision);
+                pairing.complete = true;
+            }
+        }
         Ok(())
     }
 
@@ -316,15 +376,24 @@ impl<
                 self.fault(Fault::Configuration(error));
             }
             Ok(decision) => {
-                let asks = matches!(decision.outcome, Outcome::Ask(_));
+                let until = now.after(QUESTION);
+                let asks = match &decision.outcome {
+                    Outcome::Ask(question) => Some(Open {
+                        number: 0,
+                        until,
+                        kind: question.kind,
+                        category: question.category,
+                        about: decision.best.as_ref().map(Triple::of),
+                    }),
+                    _ => None,
+                };
                 let number = self.announce(self.pairing.observations.modalities(), decision);
                 if self.configuration.explain {
                     self.explain(number);
                 }
-                if asks {
-                    self.pairing.question = Some((number, now.after(QUESTION)));
-                } else {
-                    self.pairing.clear();
+                match asks {
+                    Some(open) => self.pairing.question = Some(Open { number, ..open }),
+                    None => self.pairing.clear(),
                 }
             }
         }
@@ -340,11 +409,15 @@ impl<
         *counter = counter.saturating_add(1);
         self.pairing.numbered = self.pairing.numbered.wrapping_add(1);
         let number = self.pairing.numbered;
+        let asked = self.pairing.observations.answers();
+        let asks = u8::from(matches!(decision.outcome, Outcome::Ask(_)));
+        let left = self.configuration.profile.questions;
         self.send(&ToHost::Decision(Decided {
             number,
             vocabulary: self.loading.vocabulary().map_or(0, |v| v.fingerprint()),
             scene: self.loading.scene().map_or(0, |s| s.version()),
             modalities,
+            questions_left: left.saturating_sub(asked).saturating_sub(asks),
             decision,
         }));
         number

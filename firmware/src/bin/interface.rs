@@ -11,6 +11,8 @@ use cortex_m_rt::entry;
 use deictic_core::align::Alignment;
 use deictic_core::can::Frame;
 use deictic_core::category::{BitSet, Category};
+use deictic_core::clarify::choose::choose;
+use deictic_core::clarify::{Confirmation, gain};
 use deictic_core::command::message::{FromRobot, ToRobot};
 use deictic_core::command::parcel::{Assembler, Sender, frames};
 use deictic_core::command::{Packet, field};
@@ -18,6 +20,7 @@ use deictic_core::decide::decide;
 use deictic_core::fuse::{Situation, fuse, says_clearly};
 use deictic_core::gesture::line::{SensorLine, send};
 use deictic_core::gesture::wire::{decode, encode};
+use deictic_core::joint::posterior::Triple;
 use deictic_core::joint::{self, Tables};
 use deictic_core::judgement::judge;
 use deictic_core::merge::Merge;
@@ -94,6 +97,14 @@ macro_rules! decision {
         black_box($capacity::Word::certain(any(Category::OBJECT), &any([0.5; 3])).is_ok());
         black_box(observed.insert(&sentence, &vocabulary).is_ok());
         black_box(observed.answer(&sentence, &vocabulary).is_ok());
+        let asked = Triple {
+            action: any(1),
+            things: any([Some(1), None]),
+        };
+        observed.confirm(Confirmation {
+            asked,
+            likelihoods: any([1.0, 0.5]),
+        });
         let aligned = Alignment::of(&observed);
         black_box((
             aligned.presence(any(Category::OBJECT)),
@@ -117,6 +128,13 @@ macro_rules! decision {
             black_box(fuse(situation, &profile, &mut trace).is_ok());
             black_box(decide(&vocabulary, &scene, &profile, &trace).best.is_some());
             black_box(joint::fuse(situation, &any(Profile::JOINT), &mut trace).is_ok());
+            if let Ok(decision) = joint::fuse(situation, &any(Profile::JOINT), &mut trace)
+                && let Some(best) = &decision.best
+            {
+                black_box(choose(best, &trace).is_some());
+                black_box(Triple::of(best));
+            }
+            black_box(gain::confirm(any(0.5), any(1.0)) + gain::which(&any([0.5; 3]), any(1.0)));
             black_box(profile.weight(any(9)));
         }
         for word in trace.categories() {

@@ -216,6 +216,11 @@ impl<'a> Conversation<'a> {
                         self.printer.not_understood(&error, AGAIN.into());
                     }
                 }
+                Ok(Reply::YesOrNo(likelihoods)) => {
+                    if let Err(error) = session.yes_or_no(likelihoods) {
+                        self.printer.not_understood(&error, AGAIN.into());
+                    }
+                }
                 Ok(Reply::Neither) => {
                     session.stop();
                     self.printer.nothing("the question is withdrawn");

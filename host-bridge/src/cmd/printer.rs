@@ -214,7 +214,12 @@ impl Printer {
                 }
                 self.object(&json!({ "event": "because", "why": reasons }));
             }
-            Happening::Asked { question, text } => {
+            Happening::Asked {
+                id,
+                left,
+                question,
+                text,
+            } => {
                 self.line("asks", paint::ask(text));
                 let names = question.candidates.iter();
                 let names: Vec<_> = names
@@ -222,7 +227,8 @@ impl Printer {
                     .collect();
                 let category = lexicon.category_name(question.category);
                 self.object(&json!({
-                    "event": "asked", "category": category, "candidates": names, "text": text,
+                    "event": "asked", "id": id, "kind": report::kind(question), "category": category,
+                    "options": names, "questions_left": left, "text": text,
                 }));
             }
             Happening::Distrusted(distrust) => {

@@ -25,6 +25,9 @@ pub struct Choice {
     /// The share of commands that may be executed wrongly; for the risk threshold
     #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
     risk: f32,
+    /// How many questions may be asked about a command before it is given up; of the joint model
+    #[arg(long, value_name = "N", default_value_t = Profile::JOINT.questions, value_parser = clap::value_parser!(u8).range(0..=4))]
+    questions: u8,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -102,6 +105,7 @@ impl Choice {
             (Named::Paper, Model::Baseline, _) => Profile::BASELINE,
             (_, Model::Joint, _) => Profile {
                 threshold,
+                questions: self.questions,
                 ..Profile::JOINT
             },
             (Named::Paper, ..) => Profile {

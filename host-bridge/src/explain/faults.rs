@@ -47,6 +47,10 @@ pub fn fault(fault: &Fault) -> Advice {
             format!("the question of decision {decision} is not open any more"),
             "say the whole command again",
         ),
+        Fault::Answer { expected } => Advice::new(
+            format!("an answer to this question is {expected} likelihoods in 0..=1"),
+            "answer again",
+        ),
         Fault::HostLost => Advice::new(
             "the unit did not hear the bridge for two seconds and has forgotten what was waiting",
             "say the command again",

@@ -1,7 +1,7 @@
 //! Intents and questions as sentences to a person.
 
 use deictic_core::category::Category;
-use deictic_core::decide::{FEASIBLE, Question, Reason};
+use deictic_core::decide::{FEASIBLE, Kind, Question, Reason};
 use deictic_core::large;
 
 use crate::vocabulary::Lexicon;
@@ -45,6 +45,18 @@ pub fn question(
     lexicon: &Lexicon,
 ) -> String {
     let category = question.category;
+    if let (Kind::Confirm, Some(best)) = (question.kind, best) {
+        let gone = match (
+            question.reason,
+            heard.and_then(|heard| heard.option(category)),
+        ) {
+            (Reason::NotInScene, Some(option)) if scene.find(category, option).is_none() => {
+                format!("I see no {} here. ", lexicon.option_name(category, option))
+            }
+            _ => String::new(),
+        };
+        return format!("{gone}Do you mean: {}?", intent(best, lexicon));
+    }
     let among = or(question
         .candidates
         .iter()
@@ -152,7 +164,6 @@ fn or(names: impl Iterator<Item = String>) -> Option<String> {
 mod tests {
     use super::*;
     use crate::scene::SceneFile;
-    use deictic_core::decide::Kind;
     use deictic_core::intent::Parameter;
     use deictic_core::profile::Profile;
 
@@ -217,6 +228,33 @@ mod tests {
         assert_eq!(text, "pick or push?");
         let text = asked(Category::ACTION, Reason::NoneClear, &[3], "pick", None);
         assert_eq!(text, "Did you mean pick?");
+    }
+
+    #[test]
+    fn a_yes_or_no_names_the_whole_intent() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
+        let mut best = large::Intent {
+            action: lexicon.option(Category::ACTION, "pick").unwrap(),
+            ..large::Intent::default()
+        };
+        let cup = lexicon.option(Category::OBJECT, "cup").unwrap();
+        best.parameters
+            .push(Parameter {
+                category: Category::OBJECT,
+                option: cup,
+                quantity: None,
+            })
+            .unwrap();
+        let asked = Question {
+            kind: Kind::Confirm,
+            action: Some(best.action),
+            category: Category::OBJECT,
+            reason: Reason::TooClose,
+            candidates: [0, 1].into_iter().collect(),
+        };
+        let text = question(&asked, Some(&best), None, table.scene(), &lexicon);
+        assert_eq!(text, "Do you mean: pick cup?");
     }
 
     #[test]

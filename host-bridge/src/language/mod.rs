@@ -15,7 +15,7 @@ mod error;
 mod fill;
 mod forms;
 mod guess;
-mod likeness;
+pub(crate) mod likeness;
 pub mod pack;
 mod place;
 mod quantity;
@@ -25,7 +25,7 @@ mod split;
 mod spoken;
 pub mod stream;
 mod table;
-mod token;
+pub(crate) mod token;
 mod utter;
 
 use deictic_core::category::Category;

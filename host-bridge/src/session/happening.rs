@@ -31,6 +31,10 @@ pub enum Happening {
     Reasons(Box<Reasons>),
     /// The unit asks the person; the answer goes to [`super::Session::answer`].
     Asked {
+        /// The number of the decision that asks.
+        id: u32,
+        /// How many more questions there may be.
+        left: u8,
         /// What it asks.
         question: Question,
         /// In words.

@@ -89,7 +89,7 @@ impl Session<'_> {
     }
 
     fn decided(&mut self, decided: Decided<16>, trust: Result<(), unit::Distrust>) {
-        let number = decided.number;
+        let (number, left) = (decided.number, decided.questions_left);
         let decision = decided.decision;
         let heard = heard(&self.spoken, self.lexicon, &self.configuration.profile);
         if !matches!(decision.outcome, Outcome::Ask(_)) {
@@ -132,7 +132,12 @@ impl Session<'_> {
                 let scene = self.table.scene();
                 let text = explain::question(&question, best, heard.as_ref(), scene, self.lexicon);
                 self.question = Some((number, question.clone()));
-                self.happened.push(Happening::Asked { question, text });
+                self.happened.push(Happening::Asked {
+                    id: number,
+                    left,
+                    question,
+                    text,
+                });
                 self.drop_queue();
             }
             Outcome::Repeat | Outcome::GiveUp => self.drop_queue(),

@@ -20,6 +20,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
 use deictic_core::large::{self, Intent, Sentence};
+use deictic_core::profile::Model;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::scene::SceneError;
 use deictic_core::sentence::ANSWER;
@@ -111,7 +112,10 @@ impl<'a> Session<'a> {
         lexicon: &'a Lexicon,
         mut configuration: Configuration,
     ) -> Result<Self, UnitError> {
-        if let Some(weight) = configuration.profile.weights.get_mut(usize::from(ANSWER)) {
+        // Of the joint model an answer is a word like any other.
+        if configuration.profile.model != Model::Joint
+            && let Some(weight) = configuration.profile.weights.get_mut(usize::from(ANSWER))
+        {
             *weight = ANSWER_WEIGHT;
         }
         let unit = GestureUnit::over(opener, lexicon.vocabulary(), table.scene(), configuration)?;

@@ -105,4 +105,18 @@ impl Session<'_> {
         self.due = Some(clock::now() + PATIENCE);
         Ok(())
     }
+
+    /// Tells the unit how likely the answer to its yes-or-no question sounded like yes and like no,
+    /// 0..=1. Without a question nothing is told.
+    ///
+    /// # Errors
+    /// [`UnitError`] when the unit is not there.
+    pub fn yes_or_no(&mut self, likelihoods: [f32; 2]) -> Result<(), UnitError> {
+        let Some((decision, _)) = self.question.take() else {
+            return Ok(());
+        };
+        self.unit.reply(decision, &likelihoods)?;
+        self.due = Some(clock::now() + PATIENCE);
+        Ok(())
+    }
 }

@@ -15,7 +15,7 @@ use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
 use deictic_core::profile::Model;
 use deictic_core::protocol::hand::SampleBytes;
 use deictic_core::protocol::message::{
-    Configuration, Fault, Hello, Loaded, RobotStatus, SentencePart,
+    Answer, Configuration, Fault, Hello, Loaded, RobotStatus, SentencePart,
 };
 use deictic_core::sentence::GESTURE;
 
@@ -150,6 +150,19 @@ impl GestureUnit {
     /// [`UnitError`]; the unit has then not heard it.
     pub fn answer(&mut self, decision: u32, sentence: Sentence) -> Result<(), UnitError> {
         self.with(|c| c.tell(&sentence, Some(decision)))
+    }
+
+    /// Tells the unit how the answer to the question of decision `question` sounded.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit has then not heard it.
+    pub fn reply(&mut self, question: u32, likelihoods: &[f32]) -> Result<(), UnitError> {
+        self.with(|c| {
+            c.say(&ToUnit::Answer(Answer {
+                question,
+                likelihoods: likelihoods.iter().copied().collect(),
+            }))
+        })
     }
 
     /// Tells the unit how the robot fares.

@@ -92,6 +92,7 @@ mod tests {
             vocabulary,
             scene,
             modalities: 1,
+            questions_left: 0,
             decision,
         }
     }

@@ -42,7 +42,7 @@ pub const SAMPLES: u32 = 15_000;
 
 /// [`Bench::hash`] over all [`SAMPLES`], from [`START`]. A change means that some decision has
 /// changed somewhere, if only in its last bit.
-pub const GOLDEN: u64 = 0xd39f_4f90_974e_e8a6;
+pub const GOLDEN: u64 = 0xf87d_6390_3fa0_2677;
 
 /// Where a hash begins: the offset of FNV-1a.
 pub const START: u64 = 0xcbf2_9ce4_8422_2325;

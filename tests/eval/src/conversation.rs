@@ -10,7 +10,7 @@ use deictic_core::board;
 use deictic_core::category::Category;
 use deictic_core::clarify::choose::choose;
 use deictic_core::clarify::{Confirmation, QUESTIONS};
-use deictic_core::decide::{Decision, Kind as Asks, Outcome, Question, Reason};
+use deictic_core::decide::{Decision, Kind as Asks, Outcome};
 use deictic_core::joint::belief::Belief;
 use deictic_core::joint::posterior::Triple as Asked;
 use deictic_core::joint::sensors::ELSEWHERE;
@@ -57,6 +57,19 @@ impl Strategy {
         Self::Again,
         Self::Repeat,
     ];
+}
+
+/// What is put to the person.
+#[derive(Clone, Copy, Debug)]
+enum Put {
+    /// Yes or no to the likeliest intent.
+    Confirm,
+    /// An option of a category.
+    Which(Category),
+    /// Everything once more.
+    Again,
+    /// Everything from the beginning.
+    Over,
 }
 
 /// One look at a command.
@@ -189,11 +202,11 @@ impl<'a> Talk<'a> {
             }
             left -= 1;
             let question = self.question(&decision, &trace, strategy, rng);
-            match question.map(|q| (q.kind, q.category)) {
-                Some((Asks::Confirm, _)) => {
+            match question {
+                Put::Confirm => {
                     self.confirm(&mut sample, &decision, record.truth, rng);
                 }
-                Some((Asks::Which, category)) => {
+                Put::Which(category) => {
                     match record
                         .truth
                         .options()
@@ -209,11 +222,11 @@ impl<'a> Talk<'a> {
                         None => self.confirm(&mut sample, &decision, record.truth, rng),
                     }
                 }
-                Some((Asks::Again, _)) => {
+                Put::Again => {
                     let words = self.inside(&self.words(record, usize::from(LANGUAGE), rng));
                     sample.answer(&words, &self.vocabulary)?;
                 }
-                None => {
+                Put::Over => {
                     said.words = std::array::from_fn(|m| self.words(record, m, rng));
                     sample = prepare(&said)?;
                 }
@@ -221,39 +234,37 @@ impl<'a> Talk<'a> {
         }
     }
 
-    /// The question that a strategy puts; `None` for starting over.
+    /// The question that a strategy puts.
     fn question(
         &self,
         decision: &Decision<{ board::CATEGORIES }>,
         trace: &board::Trace,
         strategy: Strategy,
         rng: &mut impl Rng,
-    ) -> Option<Question> {
-        let best = decision.best.as_ref()?;
-        let as_kind = |kind, category| Question {
-            kind,
-            action: None,
-            category,
-            reason: Reason::TooClose,
-            candidates: Default::default(),
+    ) -> Put {
+        let Some(best) = decision.best.as_ref() else {
+            return Put::Over;
         };
         match strategy {
-            Strategy::Gain => match &decision.outcome {
-                Outcome::Ask(question) => Some(question.clone()),
-                _ => choose(best, trace),
-            },
-            Strategy::Confirm => Some(as_kind(Asks::Confirm, Category::ACTION)),
-            Strategy::Random => {
-                let categories = best.parameters.iter().map(|p| p.category);
-                let mut all = vec![
-                    as_kind(Asks::Confirm, Category::ACTION),
-                    as_kind(Asks::Which, Category::ACTION),
-                ];
-                all.extend(categories.map(|c| as_kind(Asks::Which, c)));
-                all.choose(rng).cloned()
+            Strategy::Gain => {
+                let question = match &decision.outcome {
+                    Outcome::Ask(question) => Some(question.clone()),
+                    _ => choose(best, trace),
+                };
+                match question {
+                    None => Put::Over,
+                    Some(question) if question.kind == Asks::Confirm => Put::Confirm,
+                    Some(question) => Put::Which(question.category),
+                }
             }
-            Strategy::Again => Some(as_kind(Asks::Again, Category::ACTION)),
-            Strategy::Repeat => None,
+            Strategy::Confirm => Put::Confirm,
+            Strategy::Random => {
+                let mut all = vec![Put::Confirm, Put::Which(Category::ACTION)];
+                all.extend(best.parameters.iter().map(|p| Put::Which(p.category)));
+                all.choose(rng).copied().unwrap_or(Put::Confirm)
+            }
+            Strategy::Again => Put::Again,
+            Strategy::Repeat => Put::Over,
         }
     }
 

@@ -80,6 +80,7 @@ fn message(random: &mut Random) -> board::ToHost {
             vocabulary: random.next() as u32,
             scene: random.below(1000),
             modalities: 3,
+            questions_left: 0,
             decision: Decision {
                 outcome: Outcome::Execute(board::Intent {
                     action: random.below(9) as u8,

@@ -131,7 +131,8 @@ pub struct Figures {
 }
 
 /// The cuts that complete most while no cell's risk exceeds the target: descent along axes and some
-/// fixed random directions, from a few starts.
+/// fixed random directions, from a few starts. A confidence of 1 less the tolerated risk always
+/// suffices here.
 #[must_use]
 pub fn fit(cells: &[Cell], tolerated: f64) -> Cuts {
     let score = |cuts: &Cuts| {
@@ -173,6 +174,7 @@ pub fn fit(cells: &[Cell], tolerated: f64) -> Cuts {
             })
         })
     }));
+    let enough = ((1.0 - tolerated) / tolerated).ln();
     let starts = [
         [[3.0; KNOTS]; 2],
         [[4.0; KNOTS], [2.0; KNOTS]],
@@ -180,12 +182,15 @@ pub fn fit(cells: &[Cell], tolerated: f64) -> Cuts {
     ];
     let mut best = (f64::NEG_INFINITY, starts[0]);
     for start in starts {
+        let start = start.map(|cut: [f64; KNOTS]| cut.map(|knot| knot.min(enough)));
         let (mut cuts, mut top, mut step) = (start, score(&start), 1.0);
         while step > 0.02 {
             let mut moved = false;
             for direction in &directions {
                 let next: Cuts = std::array::from_fn(|i| {
-                    std::array::from_fn(|j| (cuts[i][j] + step * direction[i][j]).max(0.0))
+                    std::array::from_fn(|j| {
+                        (cuts[i][j] + step * direction[i][j]).clamp(0.0, enough)
+                    })
                 });
                 let value = score(&next);
                 if value > top + 1e-9 {
