@@ -7,12 +7,13 @@ use deictic_core::gesture::wire::Sample;
 use miette::{IntoDiagnostic, Result, WrapErr};
 
 use super::advice;
+use super::aiming::Aim;
 use crate::hand::learning::{Performance, learn, strokes};
 use crate::hand::meaning::known;
 use crate::hand::source::recording;
 use crate::hand::taught::Taught;
 
-/// Gestures of one's own
+/// Gestures of one's own, and how one aims
 #[derive(Args, Clone, Debug)]
 pub struct Gestures {
     #[command(subcommand)]
@@ -22,6 +23,7 @@ pub struct Gestures {
 #[derive(Subcommand, Clone, Debug)]
 enum What {
     Learn(Learn),
+    Aim(Aim),
 }
 
 /// Learn movements from recordings
@@ -59,6 +61,7 @@ impl Gestures {
     pub fn run(self) -> Result<()> {
         match self.what {
             What::Learn(learn) => learn.run(),
+            What::Aim(aim) => aim.run(),
         }
     }
 }

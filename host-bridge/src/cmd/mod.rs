@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod aiming;
 mod conversation;
 pub mod decide;
 mod ears;

@@ -7,6 +7,7 @@ use deictic_core::gesture::wire::Sample;
 use miette::Result;
 
 use super::advice;
+use crate::hand::aim;
 use crate::hand::meaning::HandSetup;
 use crate::hand::source::{Address, Seen, Source};
 use crate::hand::taught::Taught;
@@ -23,6 +24,9 @@ pub struct Sensing {
     /// Gestures that `deictic gestures learn` has written
     #[arg(long, value_name = "FILE")]
     pub gestures: Option<PathBuf>,
+    /// How the person aims, as `deictic gestures aim` has found it; in place of the scene's `[sensor]`
+    #[arg(long, value_name = "FILE")]
+    pub aim: Option<PathBuf>,
 }
 
 impl Sensing {
@@ -32,7 +36,11 @@ impl Sensing {
             Some(path) => Taught::read(path).map_err(|e| advice(&e, e.remedy()))?,
             None => Taught::default(),
         };
-        HandSetup::new(lexicon, table.hand(), taught).map_err(|e| advice(&e, e.remedy()))
+        let settings = match &self.aim {
+            Some(path) => aim::read(path).map_err(|e| advice(&e, e.remedy()))?,
+            None => table.hand(),
+        };
+        HandSetup::new(lexicon, settings, taught).map_err(|e| advice(&e, e.remedy()))
     }
 
     /// Opens the sensor, if there is one.

@@ -3,6 +3,7 @@
 //! * [`source`]: sensors that hang on this machine, recordings, and made-up people.
 //! * [`meaning`], [`taught`]: which gestures stand for which actions, and gestures of a user's own.
 //! * [`learning`]: examples of gestures from recordings.
+//! * [`aim`]: how one person aims.
 //!
 //! Hands without a sensor: a kinematic model of the hand, postures and movements, from which frames
 //! are made that a tracking sensor could have sent. Demo, tests and the training of the unit's
@@ -15,6 +16,7 @@
 //! * [`session`]: everything from the hand's coming to its leaving, as frames.
 
 pub mod acting;
+pub mod aim;
 pub mod anatomy;
 mod examples;
 mod fitting;

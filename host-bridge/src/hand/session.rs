@@ -50,6 +50,8 @@ pub struct Session<'a, R> {
     mount: Mount,
     /// Standard deviation of the miss in two directions, rad.
     aim: f64,
+    /// What the person always misses by, to the right and upwards, rad.
+    bias: [f64; 2],
     /// One way of holding the hand per shape.
     postures: HashMap<Shape, Posture>,
     milliseconds: f64,
@@ -76,6 +78,7 @@ impl<'a, R: Rng> Session<'a, R> {
             side,
             mount,
             aim,
+            bias: [0.0; 2],
             postures: HashMap::from([(Shape::Five, held)]),
             milliseconds: 0.0,
             palm: [HOME[0], HOME[1] - 40.0, HOME[2] + 260.0],
@@ -84,6 +87,13 @@ impl<'a, R: Rng> Session<'a, R> {
             samples: Vec::new(),
             rng,
         }
+    }
+
+    /// The same person, who always misses by that much to the right and upwards, rad.
+    #[must_use]
+    pub fn biased(mut self, bias: [f64; 2]) -> Self {
+        self.bias = bias;
+        self
     }
 
     /// Comes, does all that, and leaves. The last samples say that there is no hand.
@@ -136,7 +146,8 @@ impl<'a, R: Rng> Session<'a, R> {
     /// By how much the person misses this time: tangents to the side and upwards.
     fn miss(&mut self) -> [f64; 2] {
         let miss = Normal::new(0.0, self.aim);
-        std::array::from_fn(|_| miss.map_or(0.0, |n| n.sample(self.rng)).tan())
+        self.bias
+            .map(|bias| (bias + miss.map_or(0.0, |n| n.sample(self.rng))).tan())
     }
 
     /// The direction of the hand whose index finger, not its palm, points at a place, but for the miss.

@@ -1,0 +1,117 @@
+//! `deictic gestures aim`: how a person aims.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use deictic_core::category::Category;
+use miette::{IntoDiagnostic, Result, WrapErr};
+
+use super::files::Files;
+use super::sensing::drain;
+use super::{advice, paint};
+use crate::diagnose::quoted;
+use crate::hand::aim::{Aimed, Pointings, aim, write};
+use crate::hand::source::{Address, Source};
+use crate::scene::Tabletop;
+use crate::vocabulary::Lexicon;
+
+/// Find out how one person aims
+///
+/// ```text
+/// $ deictic gestures aim cup can cube drawer --hand leap --scene desk.toml --out anna.aim
+/// $ deictic run --board qemu --hand leap --scene desk.toml --aim anna.aim
+/// ```
+///
+/// The person points at these things of the scene, one after the other, for a second each, and closes
+/// the hand, or takes it away, in between. What is found goes in place of the scene's `[sensor]`. Three
+/// things are enough, six are better, far apart from each other.
+#[derive(Args, Clone, Debug)]
+#[command(verbatim_doc_comment)]
+pub(super) struct Aim {
+    /// What to point at, in this order
+    #[arg(value_name = "THING", required = true)]
+    things: Vec<String>,
+    /// The hand sensor at this machine: leap, mediapipe:FILE, file:RECORDING, or a made-up person
+    #[arg(long, value_name = "SENSOR")]
+    hand: Address,
+    #[command(flatten)]
+    files: Files,
+    /// Where to write the aim (TOML)
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+impl Aim {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// A report with what was wrong and what to do.
+    pub fn run(self) -> Result<()> {
+        let (lexicon, table) = self.files.read()?;
+        let targets: Vec<[f32; 3]> = self
+            .things
+            .iter()
+            .map(|name| place(name, &table, &lexicon))
+            .collect::<Result<_>>()?;
+        let source = Source::open(&self.hand, &table, &lexicon)?;
+        let mut pointings = Pointings::new(&table, &lexicon);
+        let mut pointed = Vec::new();
+        self.ask(0);
+        let mut more = true;
+        while more && pointed.len() < targets.len() {
+            let before = pointed.len();
+            more = drain(
+                &source,
+                |sample| {
+                    if let (Some(ray), Some(target)) =
+                        (pointings.push(&sample), targets.get(pointed.len()))
+                    {
+                        pointed.push((ray, *target));
+                    }
+                },
+                |odd| anstream::eprintln!("{}", paint::bad(odd)),
+            );
+            if pointed.len() > before {
+                self.ask(pointed.len());
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        let Aimed { settings, turned } =
+            aim(table.hand(), &pointed).map_err(|e| advice(&e, e.remedy()))?;
+        let out = self.out.display().to_string();
+        let text = write(&settings).into_diagnostic()?;
+        std::fs::write(&self.out, text)
+            .into_diagnostic()
+            .wrap_err_with(|| format!("cannot write {out}"))?;
+        anstream::println!(
+            "{} things pointed at: turned by {:.1} degrees, misses by {:.1} degrees: {out}",
+            pointed.len(),
+            turned.to_degrees(),
+            settings.aim.sigma.to_degrees()
+        );
+        Ok(())
+    }
+
+    fn ask(&self, number: usize) {
+        if let Some(name) = self.things.get(number) {
+            anstream::println!("point at {}, then close the hand", paint::good(name));
+        }
+    }
+}
+
+fn place(name: &str, table: &Tabletop, lexicon: &Lexicon) -> Result<[f32; 3]> {
+    let thing = [Category::OBJECT, Category::STORAGE]
+        .into_iter()
+        .find_map(|category| table.find(category, lexicon.option(category, name)?));
+    thing.map(|thing| thing.position).ok_or_else(|| {
+        let things = table.scene().entities().iter();
+        let names: Vec<String> = things
+            .map(|t| lexicon.option_name(t.category, t.option))
+            .collect();
+        advice(
+            format!("there is no \"{name}\" on the table"),
+            format!("there are {}", quoted(names.iter().map(String::as_str))),
+        )
+    })
+}
