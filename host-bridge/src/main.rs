@@ -17,7 +17,7 @@ struct Cli {
 enum Command {
     Decide(cmd::decide::Decide),
     Understand(cmd::understand::Understand),
-    Run(cmd::run::Run),
+    Run(Box<cmd::run::Run>),
     Play(cmd::play::Play),
     Scene(cmd::scene::Scene),
     Setups(cmd::setups::Setups),
