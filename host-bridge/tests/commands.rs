@@ -205,7 +205,7 @@ fn run_takes_lines_and_answers_and_survives_anything() {
 #[test]
 fn the_demo_plays_as_it_is_told() {
     let output = deictic(
-        &["play", "--board", "inside", "--haste", "20", "--json"],
+        &["play", "--board", "inside", "--haste", "8", "--json"],
         b"",
     );
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -224,11 +224,11 @@ fn the_demo_plays_as_it_is_told() {
     };
     let mut played: Vec<_> = rows.iter().map(short).collect();
     // In which motion the stop finds the arm is a matter of milliseconds.
-    let last = played.pop().unwrap();
-    assert!(
-        last.starts_with("stop: pick can, stop: stopped: "),
-        "{last}"
-    );
+    for row in &mut played {
+        if let Some((stopped, _)) = row.split_once(": stopped: ") {
+            *row = format!("{stopped}: stopped");
+        }
+    }
     assert_eq!(
         played,
         [
@@ -248,6 +248,10 @@ fn the_demo_plays_as_it_is_told() {
             "hopeless: asks to repeat: stands still",
             "infeasible: asks which object: stands still",
             "forbidden: : stands still",
+            "stop: pick can, stop: stopped",
+            "refused: release: refuses: the hand holds nothing",
+            "infeasible: asks which storage: stands still",
+            "aligned: move-up 5 cm: done",
         ]
     );
 }
