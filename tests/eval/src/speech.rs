@@ -4,7 +4,7 @@
 mod say;
 mod trial;
 
-pub use say::{Said, said, speak};
+pub use say::{Said, said, speak, talk};
 pub use trial::{Answer, Trial};
 
 /// Voices that the recogniser's figures are fitted on.

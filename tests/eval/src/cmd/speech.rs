@@ -4,20 +4,23 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Context;
-use deictic::language::Listener;
 use deictic::language::pack::Pack;
 use deictic::language::speech::pocketsphinx::{MODEL, Pocketsphinx, SCALE};
 use deictic::language::speech::sound::range;
 use deictic::language::speech::{Expected, samples};
+use deictic::language::{Listener, Uncertainty};
+use deictic::sensor_model::SensorModel;
 use deictic::vocabulary::Lexicon;
+use deictic_core::joint::Tables;
 use deictic_core::profile::Profile;
-use deictic_eval::speech::{Answer, FITTED, LEVELS, SCORED, Said, Trial, said, speak};
+use deictic_eval::speech::{Answer, FITTED, LEVELS, SCORED, Said, Trial, said, speak, talk};
 use indicatif::ProgressBar;
 
 /// Score speech from the voice to the decision, in whole intents.
 ///
 /// Utterances of every action are spoken by espeak-ng, with noise by sox, heard by pocketsphinx and
-/// fused with a hand that points at the object. Wrong is what is executed and was not meant.
+/// fused with a hand that points at the object. Wrong is what is executed and was not meant. Of talk
+/// between people nothing is to be executed.
 #[derive(clap::Args)]
 pub struct Speech {
     /// Utterances of each action per voice
@@ -43,6 +46,9 @@ pub struct Speech {
 /// Shares of one level's utterances, in percent.
 #[derive(serde::Serialize)]
 struct Score {
+    model: &'static str,
+    /// Whether these were no commands.
+    talk: bool,
     /// In dB; `null` without noise.
     noise: Option<i32>,
     scale: f64,
@@ -69,32 +75,61 @@ impl Speech {
         let pack = Pack::built_in("en")?;
         let recogniser = Pocketsphinx::new(&lexicon, &pack, Path::new(MODEL))?;
         let listener = Listener::new(&lexicon)?;
-        let trial = Trial {
-            listener: &listener,
-            lexicon: &lexicon,
-            profile: Profile::default(),
-        };
+        let mut literal = listener.clone();
+        literal.uncertainty = Uncertainty::LIKELIHOOD;
+        let model = SensorModel::calibrated(&lexicon);
+        let known = model.here().map_err(|e| anyhow::anyhow!("{e:?}"))?;
+        let trials = [
+            (
+                "m3",
+                Trial {
+                    listener: &listener,
+                    lexicon: &lexicon,
+                    profile: Profile::default(),
+                    sensors: Tables::NONE,
+                },
+            ),
+            (
+                "joint",
+                Trial {
+                    listener: &literal,
+                    lexicon: &lexicon,
+                    profile: Profile::JOINT,
+                    sensors: known.view(),
+                },
+            ),
+        ];
         let heard = self.hear(&lexicon, &pack, &recogniser)?;
         let scales: &[f64] = match self.fit {
             true => &[10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 100.0],
             false => &[SCALE],
         };
         let mut scores = Vec::new();
-        for &scale in scales {
-            for level in LEVELS {
-                let of_level = heard.iter().filter(|h| h.level == level);
-                scores.push(self.score(of_level, level, scale, &trial));
+        for (model, trial) in &trials {
+            for &scale in scales {
+                for (talk, level) in [false, true]
+                    .into_iter()
+                    .flat_map(|t| LEVELS.map(|l| (t, l)))
+                {
+                    let of_level = heard
+                        .iter()
+                        .filter(|h| h.level == level && h.said.truth[0].is_none() == talk);
+                    let mut score = self.score(of_level, level, scale, trial);
+                    (score.model, score.talk) = (model, talk);
+                    scores.push(score);
+                }
             }
         }
         if self.json {
             return super::print_json(&scores);
         }
-        println!("noise    scale  right  wrong  asked  seconds");
+        println!("model  said      noise    scale  right  wrong  asked  seconds");
         for s in &scores {
             let noise = s.noise.map_or("none".to_owned(), |n| format!("{n} dB"));
+            let said = if s.talk { "talk" } else { "commands" };
             println!(
-                "{noise:<7} {:>6.0} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
-                s.scale, s.right, s.wrong, s.asked, s.seconds
+                "{:<6} {said:<9} {noise:<7} {:>6.0} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
+                s.model, s.scale, s.right, s.wrong, s.asked, s.seconds
             );
         }
         Ok(())
@@ -113,11 +148,13 @@ impl Speech {
         };
         let folder = tempfile::tempdir().context("no folder for recordings")?;
         let bar = ProgressBar::new(
-            (self.voices.min(voices.len()) * LEVELS.len() * self.rounds * 9) as u64,
+            (self.voices.min(voices.len()) * LEVELS.len() * (self.rounds * 9 + 12)) as u64,
         );
         let mut all = Vec::new();
         for (v, voice) in (0..).zip(voices).take(self.voices) {
-            for said in said(lexicon, pack, self.rounds, seed * 100 + v) {
+            let seed = seed * 100 + v;
+            let commands = said(lexicon, pack, self.rounds, seed);
+            for said in commands.into_iter().chain(talk(seed)) {
                 for level in LEVELS {
                     let recording = speak(folder.path(), voice, &said, level)?;
                     let began = Instant::now();
@@ -173,6 +210,8 @@ impl Speech {
         }
         let share = |count: usize| count as f64 * 100.0 / utterances.max(1) as f64;
         Score {
+            model: "",
+            talk: false,
             noise,
             scale,
             utterances,

@@ -23,6 +23,36 @@ pub struct Said {
     pub noise: &'static str,
 }
 
+/// What people say to each other in the same room. None of it is among the sentences that the bar
+/// between talk and commands was set by.
+const TALK: [&str; 12] = [
+    "can we talk about the budget later",
+    "I had pasta for dinner",
+    "the train was late again",
+    "good morning everybody",
+    "she moved to another city last year",
+    "thank you very much",
+    "it will probably rain tomorrow",
+    "our guests arrive at noon",
+    "did anyone feed the cat",
+    "that movie was far too long",
+    "remember to call your mother",
+    "what a nice surprise",
+];
+
+/// Talk that is no command.
+#[must_use]
+pub fn talk(seed: u64) -> Vec<Said> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let said = |text: &str| Said {
+        text: text.to_owned(),
+        truth: [None, None, None],
+        speed: 130 + 10 * random.random_range(0..4),
+        noise: "pinknoise",
+    };
+    TALK.into_iter().map(said).collect()
+}
+
 /// `rounds` utterances of every action of a vocabulary, in words drawn from it.
 #[must_use]
 pub fn said(lexicon: &Lexicon, pack: &Pack, rounds: usize, seed: u64) -> Vec<Said> {
@@ -37,11 +67,14 @@ pub fn said(lexicon: &Lexicon, pack: &Pack, rounds: usize, seed: u64) -> Vec<Sai
                 let entries = lexicon.entries(category);
                 let option = only.unwrap_or_else(|| random.random_range(0..entries.len()));
                 let entry = &entries[option];
-                let ends = |p: &String| prepositions.iter().any(|w| p.ends_with(&format!(" {w}")));
+                // "Put on" and "put inside" say where to, which comes later.
+                let goes =
+                    |w: &str| ["top", "inside"].contains(&w) || prepositions.iter().any(|p| p == w);
+                let ends = |p: &String| p.split(' ').skip(1).any(goes);
                 let phrases: Vec<_> = entry
                     .spoken()
                     .map(|p| p.replace('-', " "))
-                    .filter(|p| !ends(p) && !p.ends_with("top"))
+                    .filter(|p| !ends(p))
                     .collect();
                 let phrase = phrases.get(random.random_range(0..phrases.len().max(1)));
                 (phrase.cloned().unwrap_or_default(), entry.name.clone())

@@ -15,7 +15,7 @@ use super::Said;
 /// What became of an utterance.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// What was meant is done.
+    /// What was meant is done; of talk nothing.
     Right,
     /// Something else is done.
     Wrong(String),
@@ -31,6 +31,8 @@ pub struct Trial<'a> {
     pub lexicon: &'a Lexicon,
     /// Decides.
     pub profile: Profile,
+    /// What is known of the recogniser and of the hand.
+    pub sensors: Tables<'a>,
 }
 
 impl Trial<'_> {
@@ -45,7 +47,10 @@ impl Trial<'_> {
             Err(error) => return Answer::Asked(error.to_string()),
         };
         let Some(command) = utterance.commands.first() else {
-            return Answer::Asked("no command".into());
+            return match said.truth[0] {
+                None => Answer::Right,
+                Some(_) => Answer::Asked("no command".into()),
+            };
         };
         let vocabulary = self.lexicon.vocabulary();
         let mut observations = Observations::new();
@@ -59,7 +64,7 @@ impl Trial<'_> {
             vocabulary,
             scene: &scene,
             observations: &observations,
-            sensors: Tables::NONE,
+            sensors: self.sensors,
         };
         let decided = fuse(situation, &self.profile, &mut Trace::default());
         match decided.map(|d| d.outcome) {
