@@ -11,7 +11,7 @@
 
 use super::cost::{Bar, Costs, MOST};
 use super::sensors::Rows;
-use super::tables::LINES;
+use super::tables::{LINES, Line};
 use crate::math::larger;
 use crate::vocabulary::Action;
 
@@ -40,9 +40,9 @@ const FEW: usize = 54;
 pub struct Element {
     /// In 255ths.
     seen: u8,
-    /// Where its costs begin: those of 0 and 1, where clipping gathers all that lies beyond, come
-    /// after the others.
-    line: u16,
+    /// Costs by error; of 0 and 1, where clipping gathers all that lies beyond, others than of what
+    /// lies between. Not a mere reference, since what is all zeros in memory must be an element.
+    line: Option<&'static Line>,
     /// The categories that its action takes.
     signature: u32,
     /// What it costs when it is named itself.
@@ -57,7 +57,7 @@ impl Element {
     /// Of no word.
     pub const NONE: Self = Self {
         seen: 0,
-        line: 0,
+        line: None,
         signature: 0,
         own: Costs::ZERO,
         other: Bar::ZERO,
@@ -69,15 +69,16 @@ impl Element {
     fn read(&mut self, likelihood: f32, expected: u8) {
         self.seen = (likelihood * 255.0 + 0.5) as u32 as u8;
         let at_end = self.seen.wrapping_add(1) < 2;
-        self.line = if at_end { 256 } else { 0 };
+        let [between, end] = &LINES;
+        self.line = Some(if at_end { end } else { between });
         self.own = self.cost(expected);
     }
 
     /// What it costs when this is expected.
     #[inline(always)]
     fn cost(&self, expected: u8) -> Costs {
-        let at = u16::from(self.seen.abs_diff(expected)) | self.line;
-        let cost = LINES.as_flattened().get(usize::from(at & 511));
+        let error = self.seen.abs_diff(expected);
+        let cost = self.line.and_then(|line| line.get(usize::from(error)));
         cost.copied().unwrap_or(Costs::ZERO)
     }
 }

@@ -1,5 +1,6 @@
 //! One file per subcommand.
 
+mod ablate;
 mod bound;
 mod calibrate;
 mod clarify;
@@ -18,6 +19,7 @@ use clap::Subcommand;
 /// What to do.
 #[derive(Subcommand)]
 pub enum Command {
+    Ablate(ablate::Ablate),
     Bound(bound::Bound),
     Calibrate(calibrate::Calibrate),
     Clarify(clarify::Clarify),
@@ -36,6 +38,7 @@ impl Command {
     /// Does it.
     pub fn run(self) -> anyhow::Result<()> {
         match self {
+            Self::Ablate(command) => command.run(),
             Self::Bound(command) => command.run(),
             Self::Calibrate(command) => command.run(),
             Self::Clarify(command) => command.run(),

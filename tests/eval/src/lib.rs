@@ -8,6 +8,7 @@
 //! No decision depends on the order in which a file lists things: the core folds over the scene and
 //! looks things up by option.
 
+pub mod ablation;
 pub mod answer;
 pub mod bound;
 pub mod calibration;
