@@ -177,7 +177,9 @@ fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W
     let action = actions.get(usize::from(best.action))?;
     for q in action.signature.compulsory.iter() {
         let category = Category::from_index(q)?;
-        if !present(trace, category) {
+        // A word that is there may be too faint for any of its options to be the best.
+        let given = best.parameters.iter().any(|p| p.category == category);
+        if !present(trace, category) || !given {
             return Some((category, Reason::Missing));
         }
     }
