@@ -1,19 +1,40 @@
-//! The bridge's clock: the machine's monotonic one, or, on a thread that asked for it, a simulated one that moves only
-//! when it is told to or when something would have slept. Sessions run under it many thousand times faster than real
+//! The bridge's clock: the machine's monotonic one, or, on a thread that asked for it, one that goes many times as fast,
+//! or a simulated one that moves only when it is told to or when something would have slept. Sessions run under it many thousand times faster than real
 //! time, and alike every time.
 
 use std::cell::Cell;
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 
+/// How time passes on a thread.
+#[derive(Clone, Copy)]
+enum Time {
+    Real,
+    Simulated(Instant),
+    /// So many times as fast as the machine's clock since `began`, and a jump ahead of that.
+    Hasty {
+        began: Instant,
+        haste: u32,
+        ahead: Duration,
+    },
+}
+
 thread_local! {
-    static SIMULATED: Cell<Option<Instant>> = const { Cell::new(None) };
+    static TIME: Cell<Time> = const { Cell::new(Time::Real) };
 }
 
 /// The present moment.
 #[must_use]
 pub fn now() -> Instant {
-    SIMULATED.get().unwrap_or_else(Instant::now)
+    match TIME.get() {
+        Time::Real => Instant::now(),
+        Time::Simulated(now) => now,
+        Time::Hasty {
+            began,
+            haste,
+            ahead,
+        } => began + began.elapsed() * haste + ahead,
+    }
 }
 
 /// How long ago `earlier` was.
@@ -32,9 +53,53 @@ pub fn until(later: Instant) -> Option<Duration> {
 
 /// Waits.
 pub fn sleep(span: Duration) {
-    match SIMULATED.get() {
-        Some(now) => SIMULATED.set(Some(now + span)),
-        None => std::thread::sleep(span),
+    match TIME.get() {
+        Time::Real => std::thread::sleep(span),
+        Time::Simulated(now) => TIME.set(Time::Simulated(now + span)),
+        Time::Hasty { haste, .. } => std::thread::sleep(span / haste),
+    }
+}
+
+/// Lets a clock that is not the machine's jump ahead.
+pub fn jump(span: Duration) {
+    match TIME.get() {
+        Time::Real => {}
+        Time::Simulated(now) => TIME.set(Time::Simulated(now + span)),
+        Time::Hasty {
+            began,
+            haste,
+            ahead,
+        } => TIME.set(Time::Hasty {
+            began,
+            haste,
+            ahead: ahead + span,
+        }),
+    }
+}
+
+/// While it lives, this thread's clock goes many times as fast as the machine's.
+#[derive(Debug)]
+pub struct Hasty {
+    /// It belongs to the thread that made it.
+    here: PhantomData<*const ()>,
+}
+
+impl Hasty {
+    /// Makes it go `haste` times as fast from now on, at least once.
+    #[must_use]
+    pub fn start(haste: u32) -> Self {
+        TIME.set(Time::Hasty {
+            began: Instant::now(),
+            haste: haste.max(1),
+            ahead: Duration::ZERO,
+        });
+        Self { here: PhantomData }
+    }
+}
+
+impl Drop for Hasty {
+    fn drop(&mut self) {
+        TIME.set(Time::Real);
     }
 }
 
@@ -49,7 +114,7 @@ impl Simulated {
     /// Stops this thread's clock at the present moment.
     #[must_use]
     pub fn start() -> Self {
-        SIMULATED.set(Some(Instant::now()));
+        TIME.set(Time::Simulated(Instant::now()));
         Self { here: PhantomData }
     }
 
@@ -61,7 +126,7 @@ impl Simulated {
 
 impl Drop for Simulated {
     fn drop(&mut self) {
-        SIMULATED.set(None);
+        TIME.set(Time::Real);
     }
 }
 
@@ -80,5 +145,18 @@ mod tests {
         assert_eq!(until(now()), None);
         drop(clock);
         assert!(since(began) < Duration::from_secs(3_600));
+    }
+
+    #[test]
+    fn a_hasty_clock_goes_as_many_times_as_fast_and_jumps() {
+        let clock = Hasty::start(1_000);
+        let (began, real) = (now(), Instant::now());
+        sleep(Duration::from_secs(5));
+        assert!(since(began) >= Duration::from_secs(5));
+        assert!(real.elapsed() >= Duration::from_millis(5));
+        jump(Duration::from_secs(100_000));
+        assert!(since(began) >= Duration::from_secs(100_005));
+        drop(clock);
+        assert!(now() < began + Duration::from_secs(100_000));
     }
 }

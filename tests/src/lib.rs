@@ -7,4 +7,6 @@ pub mod gesturing;
 pub mod host;
 pub mod method;
 pub mod network;
+pub mod painted;
+pub mod soak;
 pub mod stillness;

@@ -18,6 +18,7 @@
 //! | `deny` | sees that every library's licence and origin will do |
 //! | `versions` | sees that the oldest compiler and libraries that the manifests allow will do |
 //! | `faults` | plays sessions under faults of every kind |
+//! | `soak` | operates the unit in QEMU for an hour of its time, under faults |
 
 mod board;
 mod budget;
@@ -54,6 +55,7 @@ enum Command {
     Latency(cmd::latency::Latency),
     Fuzz(cmd::fuzz::Fuzz),
     Faults(cmd::faults::Faults),
+    Soak(cmd::soak::Soak),
     Key(cmd::key::MakeKey),
     Interface(cmd::interface::Interface),
     Deny(cmd::deny::Deny),
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Command::Latency(latency) => latency.run(),
         Command::Fuzz(fuzz) => fuzz.run(),
         Command::Faults(faults) => faults.run(),
+        Command::Soak(soak) => soak.run(),
         Command::Key(key) => key.run(),
         Command::Interface(interface) => interface.run(),
         Command::Deny(deny) => deny.run(),

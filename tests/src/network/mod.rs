@@ -2,6 +2,7 @@
 //! that lines do, the unit's own state machine, a simulated robot, and a clock that moves only when something waits.
 //! One seed gives one course of events, whatever the machine.
 
+pub mod around;
 pub mod damage;
 pub mod line;
 pub mod trial;

@@ -8,7 +8,7 @@ use deictic::robot::Event;
 use deictic::scene::{SceneFile, Tabletop};
 use deictic::session::{Happening, Session};
 use deictic::showing::showing;
-use deictic::unit::UNIT_LOST;
+use deictic::unit::{UNIT_LOST, UnitError};
 use deictic::vocabulary::Lexicon;
 use deictic_bits::random::Random;
 use deictic_core::category::Category;
@@ -18,6 +18,7 @@ use deictic_core::protocol::message::Configuration;
 use deictic_core::sentence::LANGUAGE;
 use deictic_core::time::Micros;
 
+use super::around::Around;
 use super::line::Faults;
 use super::watch::Watch;
 use super::world::World;
@@ -103,31 +104,9 @@ pub fn run(setting: &Setting, seed: u64) -> Account {
     let clock = Simulated::start();
     let mut random = Random::new(seed);
     let world = World::new(random.next());
-    let robot = Watch::new(1.0 + random.below(8) as f32);
-    let wire = world.clone();
-    let mut trial = Trial {
-        stop: setting.lexicon.vocabulary().stop(),
-        session: Session::open(
-            Box::new(move || Ok(Box::new(wire.clone()) as Box<dyn Wire>)),
-            Box::new(robot.clone()),
-            setting.table.clone(),
-            &setting.lexicon,
-            Configuration {
-                window: Micros::from_millis(600),
-                ..Configuration::DEFAULT
-            },
-        )
-        .expect("nothing is wrong yet"),
-        world: world.clone(),
-        began: world.now(),
-        robot,
-        faults: faults(&mut random),
-        random,
-        account: Account::default(),
-        happened: Vec::new(),
-        watched: 0,
-    };
-    trial.world.set_faults(trial.faults);
+    let explain = random.one_in(4);
+    let mut trial =
+        Trial::open(setting, world, random.next(), explain).expect("nothing is wrong yet");
     if trial.random.one_in(4) {
         let width = 1 + trial.random.below(40) as usize;
         trial.world.narrow(width);
@@ -135,10 +114,8 @@ pub fn run(setting: &Setting, seed: u64) -> Account {
     for _ in 0..1 + trial.random.below(3) {
         trial.command(setting);
     }
-    trial.check_robot();
     drop(clock);
-    trial.account.begun = trial.robot.seen().begun.len();
-    trial.account
+    trial.account()
 }
 
 /// Faults of one session: mostly one or two kinds, from hardly any to every other frame.
@@ -158,11 +135,12 @@ fn faults(random: &mut Random) -> Faults {
     }
 }
 
-struct Trial<'a> {
+/// A session under way, in the midst of what goes wrong.
+pub struct Trial<'a, A> {
     /// The action that stops.
     stop: Option<u8>,
     session: Session<'a>,
-    world: World,
+    world: A,
     /// When the session began, from which it counts the robot's time.
     began: Micros,
     robot: Watch,
@@ -173,10 +151,81 @@ struct Trial<'a> {
     happened: Vec<Happening>,
     /// How many of the robot's commands have been looked at.
     watched: usize,
+    /// How late the bridge may find something out.
+    late: Duration,
 }
 
-impl Trial<'_> {
-    fn command(&mut self, setting: &Setting) {
+impl<'a, A: Around + Wire + Clone + Send + 'static> Trial<'a, A> {
+    /// A session whose faults follow from the seed; with `explain` it asks for the reasons of every decision, and for
+    /// statistics.
+    ///
+    /// # Errors
+    /// When the unit cannot be loaded over a good line.
+    pub fn open(
+        setting: &'a Setting,
+        world: A,
+        seed: u64,
+        explain: bool,
+    ) -> Result<Self, UnitError> {
+        let mut random = Random::new(seed);
+        let robot = Watch::new(1.0 + random.below(8) as f32);
+        let wire = world.clone();
+        let session = Session::open(
+            Box::new(move || Ok(Box::new(wire.clone()) as Box<dyn Wire>)),
+            Box::new(robot.clone()),
+            setting.table.clone(),
+            &setting.lexicon,
+            Configuration {
+                window: Micros::from_millis(600),
+                explain,
+                ..Configuration::DEFAULT
+            },
+        )?;
+        let faults = faults(&mut random);
+        world.set_faults(faults);
+        Ok(Self {
+            stop: setting.lexicon.vocabulary().stop(),
+            session,
+            began: world.now(),
+            world,
+            robot,
+            faults,
+            random,
+            account: Account::default(),
+            happened: Vec::new(),
+            watched: 0,
+            late: 2 * TURN,
+        })
+    }
+
+    /// Time passes many times as fast as this machine's, which has other work too: what is found out may be found out
+    /// later.
+    pub fn in_a_hurry(&mut self) {
+        self.late = Duration::from_secs(900);
+    }
+
+    /// From now on the line has other faults, or, every second time, none.
+    pub fn change_faults(&mut self) {
+        self.faults = match self.random.one_in(2) {
+            true => Faults::NONE,
+            false => faults(&mut self.random),
+        };
+        self.world.set_faults(self.faults);
+    }
+
+    /// What came of it.
+    #[must_use]
+    pub fn account(mut self) -> Account {
+        self.check_robot();
+        self.account.begun = self.robot.seen().begun.len();
+        self.account
+    }
+
+    /// Gives a command and lets it come to its end, whatever happens.
+    ///
+    /// # Panics
+    /// When something does not hold.
+    pub fn command(&mut self, setting: &Setting) {
         let text = COMMANDS[self.random.below(COMMANDS.len() as u32) as usize];
         self.happened.clear();
         let began = self.world.now();
@@ -200,7 +249,10 @@ impl Trial<'_> {
             }
             let waited = self.world.now().since(began);
             assert!(
-                waited < PATIENCE.after(PATIENCE),
+                waited
+                    < PATIENCE
+                        .after(PATIENCE)
+                        .after(Micros(self.late.as_micros() as u64)),
                 "it never ends: {:#?}",
                 self.happened
             );
@@ -244,7 +296,7 @@ impl Trial<'_> {
     /// Something goes wrong, or the person says stop. Gives whether it was a stop.
     fn mishap(&mut self, setting: &Setting) -> bool {
         let span = Micros(u64::from(self.random.below(4_000_000)));
-        match self.random.below(8) {
+        match self.random.below(10) {
             0 => self.world.restart(),
             1 => {
                 let more = self.random.below(300) as usize;
@@ -263,7 +315,8 @@ impl Trial<'_> {
                 let moment = self.robot_now();
                 self.robot.kill(moment);
             }
-            6 => {
+            6 | 7 => self.disturb_table(setting),
+            8 => {
                 self.session.stop();
                 self.check_still();
                 return true;
@@ -278,6 +331,22 @@ impl Trial<'_> {
             }
         }
         false
+    }
+
+    /// Somebody moves a thing, takes one away, or lays the table as it was in the beginning.
+    fn disturb_table(&mut self, setting: &Setting) {
+        let mut things = self.session.table().scene().entities().to_vec();
+        let one = self.random.below(things.len().max(1) as u32) as usize;
+        match self.random.below(3) {
+            0 if one < things.len() => drop(things.remove(one)),
+            1 => things = setting.table.scene().entities().to_vec(),
+            _ => {
+                if let Some(thing) = things.get_mut(one) {
+                    thing.position[1] += 0.02 * (self.random.unit() - 0.5);
+                }
+            }
+        }
+        self.session.lay(things).expect("things of the vocabulary");
     }
 
     /// The robot's time is the session's, which began after the world's.
@@ -300,10 +369,10 @@ impl Trial<'_> {
         if !self.robot.seen().is_moving(moment) {
             return;
         }
-        let alone = self.world.now().since(self.world.inside().heard);
+        let alone = self.world.now().since(self.world.heard());
         self.account.alone = self.account.alone.max(alone);
         // The bridge finds the silence out in the turn in which it becomes too long.
-        let bound = UNIT_LOST + 2 * TURN;
+        let bound = UNIT_LOST + self.late;
         assert!(
             Duration::from_micros(alone.0) <= bound,
             "it moves {} ms after the unit was heard last",
@@ -320,17 +389,11 @@ impl Trial<'_> {
             seen.begun
         );
         for (command, _) in &seen.begun[self.watched..] {
-            let mut inside = self.world.inside();
-            let told = inside
-                .told
-                .iter()
-                .find(|(_, told)| told.scene == command.scene && told.intent == command.intent)
-                .map(|(number, _)| *number);
-            match told {
-                // Each decision can be carried out once.
-                Some(number) => drop(inside.told.remove(&number)),
-                None => panic!("nobody told it to: {command:#?}"),
-            }
+            // Each decision can be carried out once.
+            assert!(
+                self.world.redeem(command.scene, &command.intent),
+                "nobody told it to: {command:#?}"
+            );
         }
         self.watched = seen.begun.len();
     }

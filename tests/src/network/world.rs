@@ -12,6 +12,7 @@ use deictic_core::decide::Outcome;
 use deictic_core::large::{Intent, Link, ToHost};
 use deictic_core::time::Micros;
 
+use super::around::Around;
 use super::line::{Faults, Line};
 
 /// An execution that a unit has told.
@@ -93,34 +94,6 @@ impl World {
         self.inside.lock().expect("nothing panicked in here")
     }
 
-    /// The present moment of the world.
-    #[must_use]
-    pub fn now(&self) -> Micros {
-        Micros(clock::since(self.began).as_micros() as u64)
-    }
-
-    /// From now on both directions have these faults.
-    pub fn set_faults(&self, faults: Faults) {
-        let mut inside = self.inside();
-        inside.to_unit.faults = faults;
-        inside.to_host.faults = faults;
-    }
-
-    /// From now on the unit's line takes so many bytes a millisecond.
-    pub fn narrow(&self, width: usize) {
-        self.inside().width = width.max(1);
-    }
-
-    /// The unit starts anew, as after a power cut.
-    pub fn restart(&self) {
-        let mut inside = self.inside();
-        inside.boots += 1;
-        let boot = inside.boots;
-        *inside.unit = Unit::new(boot);
-        inside.ahead = Micros(0);
-        inside.to_unit.break_after(0);
-    }
-
     /// Bytes that nobody sent come out of the line at both of its ends.
     pub fn disturb(&self, bytes: &[u8]) {
         let now = self.now();
@@ -138,15 +111,38 @@ impl World {
         let unit_now = now.after(inside.ahead);
         inside.unit.sense(unit_now, bytes);
     }
+}
 
-    /// The unit does nothing for so long.
-    pub fn freeze(&self, span: Micros) {
+impl Around for World {
+    fn now(&self) -> Micros {
+        Micros(clock::since(self.began).as_micros() as u64)
+    }
+
+    fn set_faults(&self, faults: Faults) {
+        let mut inside = self.inside();
+        inside.to_unit.faults = faults;
+        inside.to_host.faults = faults;
+    }
+
+    fn narrow(&self, width: usize) {
+        self.inside().width = width.max(1);
+    }
+
+    fn restart(&self) {
+        let mut inside = self.inside();
+        inside.boots += 1;
+        let boot = inside.boots;
+        *inside.unit = Unit::new(boot);
+        inside.ahead = Micros(0);
+        inside.to_unit.break_after(0);
+    }
+
+    fn freeze(&self, span: Micros) {
         let until = self.now().after(span);
         self.inside().frozen = until;
     }
 
-    /// The cable is out for so long; `more` bytes of what is under way still come.
-    pub fn pull(&self, span: Micros, more: usize) {
+    fn pull(&self, span: Micros, more: usize) {
         let until = self.now().after(span);
         let mut inside = self.inside();
         inside.pulled = until;
@@ -154,15 +150,27 @@ impl World {
         inside.to_host.break_after(more);
     }
 
-    /// The unit's clock jumps ahead.
-    pub fn jump(&self, span: Micros) {
+    fn jump(&self, span: Micros) {
         let mut inside = self.inside();
         inside.ahead = inside.ahead.after(span);
     }
 
-    /// The host does nothing for so long.
-    pub fn sleep(&self, span: Micros) {
+    fn sleep(&self, span: Micros) {
         clock::sleep(Duration::from_micros(span.0));
+    }
+
+    fn heard(&self) -> Micros {
+        self.inside().heard
+    }
+
+    fn redeem(&self, scene: u32, intent: &Intent) -> bool {
+        let mut inside = self.inside();
+        let found = inside
+            .told
+            .iter()
+            .find(|(_, told)| told.scene == scene && told.intent == *intent);
+        let number = found.map(|(number, _)| *number);
+        number.is_some_and(|number| inside.told.remove(&number).is_some())
     }
 }
 

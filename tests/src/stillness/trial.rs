@@ -25,6 +25,7 @@ use super::PERIOD;
 use super::bus::bus;
 use super::far::Far;
 use super::load::Load;
+use crate::network::around::Around;
 use crate::network::watch::Watch;
 use crate::network::world::World;
 

@@ -14,7 +14,7 @@ use crate::toolchain::Toolchain;
 ///
 /// Fails when a figure is above its golden one (tests/expected/budget-BOARD-COMPILER.json) or above what the project
 /// promises. Instructions are counted in QEMU, where 1 takes 1024 ns of the board's time; the rest is read from the
-/// image. With --json: {"flash_bytes": n, "ram_bytes": n, "stack_bytes": n, "instructions": {"hand": n, "m3": n, ...},
+/// image. Whole conversations with the image in QEMU, its stack painted, must stay within the static figure of the stack. With --json: {"flash_bytes": n, "ram_bytes": n, "stack_bytes": n, "instructions": {"hand": n, "m3": n, ...},
 /// ...}.
 #[derive(Args)]
 pub struct Budget {
@@ -37,6 +37,8 @@ struct Report {
     #[serde(flatten)]
     figures: Figures,
     stack: WorstCase,
+    /// The most stack that whole conversations used, where they can be held.
+    high_water_bytes: Option<u32>,
     assumptions: &'static [&'static str],
     golden: Option<Figures>,
     limits: Figures,
@@ -77,11 +79,12 @@ impl Budget {
 
 impl Report {
     fn measure(toolchain: &Toolchain, board: Board) -> Result<Self> {
-        let image = Image::read(&board::build(toolchain, board)?)?;
+        let path = board::build(toolchain, board)?;
+        let image = Image::read(&path)?;
         let stack = budget::worst_case(&image);
-        let instructions = match board {
-            Board::Mps2An386 => budget::count(toolchain)?,
-            Board::NucleoG474re => BTreeMap::new(),
+        let (instructions, high_water_bytes) = match board {
+            Board::Mps2An386 => (budget::count(toolchain)?, Some(budget::high_water(&path)?)),
+            Board::NucleoG474re => (BTreeMap::new(), None),
         };
         Ok(Self {
             board: board.name(),
@@ -93,6 +96,7 @@ impl Report {
                 instructions,
             },
             stack,
+            high_water_bytes,
             assumptions: ASSUMPTIONS,
             golden: Golden::new(board, &toolchain.label()).read()?,
             limits: Figures::limits(),
@@ -110,6 +114,9 @@ impl Report {
                 "  {name:<28} {now:>9} {golden:>9} {:>9}",
                 show(self.limits.get(&name))
             );
+        }
+        if let Some(used) = self.high_water_bytes {
+            println!("  {:<28} {used:>9}", "stack used in conversations");
         }
         println!("  worst-case stack:");
         for (title, path) in [
@@ -131,6 +138,14 @@ impl Report {
     /// Fails on any figure above its golden one or its limit, and on stack that was not covered.
     fn judge(&self, blessed: bool) -> Result<()> {
         let mut over = Vec::new();
+        if let Some(used) = self.high_water_bytes
+            && u64::from(used) > self.figures.stack_bytes
+        {
+            over.push(format!(
+                "conversations use {used} bytes of stack, more than the {} of the static figure",
+                self.figures.stack_bytes
+            ));
+        }
         for (name, now) in self.figures.named() {
             let golden = self.golden.as_ref().and_then(|golden| golden.get(&name));
             match (golden, self.limits.get(&name)) {

@@ -14,5 +14,6 @@ pub mod key;
 pub mod latency;
 pub mod qemu;
 pub mod setup;
+pub mod soak;
 pub mod test;
 pub mod versions;

@@ -39,6 +39,8 @@ impl Test {
             eprintln!("{}", image.display());
             tests.env(board.image_variable(), image);
         }
+        step("image in a hurry");
+        tests.env("DEICTIC_IMAGE_HASTY", board::build_hasty(&toolchain)?);
         match python() {
             Ok(python) => {
                 tests.env("DEICTIC_PYTHON", python);
