@@ -69,6 +69,17 @@ pub fn fuse_with<const N: usize, const C: usize, const F: usize, const E: usize,
     if profile.model == Model::Joint {
         return joint::fuse(situation, profile, trace);
     }
+    mixed(situation, profile, mix, trace)
+}
+
+/// The paper's models. Apart, so that the joint model's stack does not hold what they need.
+#[inline(never)]
+fn mixed<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
+    situation: Situation<'_, N, C, F, E, W>,
+    profile: &Profile,
+    mix: &impl Mix,
+    trace: &mut Trace<C, N>,
+) -> Result<Decision<C>, ProfileError> {
     profile.check().inspect_err(|_| trace.clear())?;
     trace.belief = Belief::NONE;
     let Situation {

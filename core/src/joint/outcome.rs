@@ -163,6 +163,7 @@ fn complete<const N: usize, const C: usize, const F: usize, const E: usize, cons
 
 /// What speaks against an intent whatever its posterior: a parameter that nobody gave, a thing that
 /// does not fit well, and something else that is clearly meant but cannot be had.
+#[inline(never)]
 fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
     profile: &Profile,
