@@ -47,22 +47,23 @@ pub fn build(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
 
 /// Builds the unit's release image whose host link is a CAN bus, and says where it is: beside the other one.
 pub fn build_on_can(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
+    build_variant(toolchain, board, "can")
+}
+
+/// Builds an image with one more feature, and says where it is: beside the plain one, which is built after it, as cargo
+/// puts both at the same place and that is where everyone looks for the plain one.
+fn build_variant(toolchain: &Toolchain, board: Board, feature: &str) -> Result<PathBuf> {
     let name = board.name();
-    let built = build_image(toolchain, &format!("{name},can"), name)?;
-    // Cargo puts both images at the same place.
-    let kept = built.with_file_name(format!("{name}-can"));
+    let built = build_image(toolchain, &format!("{name},{feature}"), name)?;
+    let kept = built.with_file_name(format!("{name}-{feature}"));
     std::fs::copy(&built, &kept).with_context(|| format!("cannot write {}", kept.display()))?;
+    build(toolchain, board)?;
     Ok(kept)
 }
 
 /// Builds the unit's release image for QEMU whose time passes 25 times as fast, and says where it is.
 pub fn build_hasty(toolchain: &Toolchain) -> Result<PathBuf> {
-    let name = Board::Mps2An386.name();
-    let built = build_image(toolchain, "hasty", name)?;
-    // Cargo puts both images at the same place.
-    let kept = built.with_file_name(format!("{name}-hasty"));
-    std::fs::copy(&built, &kept).with_context(|| format!("cannot write {}", kept.display()))?;
-    Ok(kept)
+    build_variant(toolchain, Board::Mps2An386, "hasty")
 }
 
 /// Builds one of the images that try the board in QEMU: `bench`, `bits` or `faults`.
