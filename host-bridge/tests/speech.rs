@@ -85,6 +85,23 @@ fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
 }
 
 #[test]
+fn a_word_that_was_hardly_heard_is_none() {
+    let lexicon = Lexicon::tabletop().unwrap();
+    let listener = Listener::new(&lexicon).unwrap();
+    let words = |put: f64| {
+        let spoken = Spoken {
+            alternatives: vec![
+                ("please stop".to_owned(), 1.0 - put),
+                ("put the cup in the drawer".to_owned(), put),
+            ],
+        };
+        let utterance = listener.hear(&spoken).unwrap();
+        utterance.commands[0].sentence.words().len()
+    };
+    assert_eq!((words(1e-6), words(0.005)), (1, 3));
+}
+
+#[test]
 fn what_may_have_been_talk_is_to_be_said_again() {
     let lexicon = Lexicon::tabletop().unwrap();
     let listener = Listener::new(&lexicon).unwrap();

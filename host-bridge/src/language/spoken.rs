@@ -7,7 +7,7 @@
 use deictic_core::category::Category;
 use deictic_core::large::{OPTIONS, Sentence, Word};
 use deictic_core::math::argmax;
-use deictic_core::sentence::LANGUAGE;
+use deictic_core::sentence::{ABSENT_BELOW, LANGUAGE};
 use serde::Deserialize;
 
 use super::error::LanguageError;
@@ -207,7 +207,8 @@ fn mix(sentences: &[(&Command, f64)], risk: f64) -> Result<Sentence, LanguageErr
             let into = categories.iter_mut().zip(word.categories());
             into.for_each(|(sum, c)| *sum += p * f64::from(*c));
         }
-        if share <= 0.0 {
+        // A word that hardly anybody would have heard is none.
+        if share < f64::from(ABSENT_BELOW) * all {
             continue;
         }
         let mut likelihoods = likelihoods.map(|l| (l / share).min(1.0) as f32);
