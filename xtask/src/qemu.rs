@@ -12,6 +12,8 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use anyhow::{Context, Result, ensure};
+
 use crate::cmd::setup::QEMU;
 
 /// Where UART0, the host link, goes.
@@ -42,7 +44,19 @@ pub fn command(image: &Path, link: &Link) -> Command {
     qemu
 }
 
-/// Makes the board's clock count instructions: 1024 ns each, so 25.6 ticks of its 25 MHz SysTick.
-pub fn count_instructions(qemu: &mut Command) {
-    qemu.args(["-icount", "shift=10"]);
+/// Boots a measuring image and gives the lines it says. The board's clock counts instructions: 1024 ns each, so 25.6
+/// ticks of its 25 MHz SysTick.
+pub fn measured(image: &Path) -> Result<Vec<String>> {
+    let output = command(image, &Link::Null)
+        .args(["-icount", "shift=10"])
+        .output()
+        .context("cannot start QEMU")?;
+    let said = String::from_utf8_lossy(&output.stdout);
+    ensure!(
+        output.status.success(),
+        "the measuring image did not end well ({}): {said}{}",
+        output.status,
+        String::from_utf8_lossy(&output.stderr)
+    );
+    Ok(said.lines().map(str::to_owned).collect())
 }

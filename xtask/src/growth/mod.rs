@@ -4,13 +4,11 @@ mod chart;
 mod fit;
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader};
-use std::process::Stdio;
 
 use anyhow::{Context, Result, ensure};
 
 use crate::board;
-use crate::qemu::{self, Link};
+use crate::qemu;
 use crate::toolchain::Toolchain;
 
 pub use chart::draw;
@@ -22,16 +20,8 @@ pub type Curves = BTreeMap<String, BTreeMap<String, BTreeMap<u32, u64>>>;
 /// Boots the measuring image and reads its lines `growth MODEL DIRECTION SIZE INSTRUCTIONS`.
 pub fn measure(toolchain: &Toolchain) -> Result<Curves> {
     let image = board::build_trial(toolchain, "growth")?;
-    let mut command = qemu::command(&image, &Link::Null);
-    qemu::count_instructions(&mut command);
-    let mut qemu = command
-        .stdout(Stdio::piped())
-        .spawn()
-        .context("cannot start QEMU")?;
-    let output = qemu.stdout.take().context("QEMU has no output")?;
     let mut curves = Curves::new();
-    for line in BufReader::new(output).lines() {
-        let line = line?;
+    for line in qemu::measured(&image)? {
         let words: Vec<&str> = line.split_whitespace().collect();
         let ["growth", model, direction, size, count] = words.as_slice() else {
             eprintln!("measuring image: {line}");
@@ -48,10 +38,6 @@ pub fn measure(toolchain: &Toolchain) -> Result<Curves> {
                 count.parse().with_context(said)?,
             );
     }
-    let status = qemu.wait()?;
-    ensure!(
-        status.success() && !curves.is_empty(),
-        "the measuring image did not end well ({status})"
-    );
+    ensure!(!curves.is_empty(), "the measuring image gave no figures");
     Ok(curves)
 }
