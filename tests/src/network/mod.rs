@@ -5,6 +5,7 @@
 pub mod around;
 pub mod damage;
 pub mod line;
+pub mod setting;
 pub mod trial;
 pub mod watch;
 pub mod world;

@@ -5,21 +5,18 @@ use std::time::Duration;
 use deictic::clock::Simulated;
 use deictic::link::Wire;
 use deictic::robot::Event;
-use deictic::scene::{SceneFile, Tabletop};
 use deictic::session::{Happening, Session};
-use deictic::showing::showing;
 use deictic::unit::{UNIT_LOST, UnitError};
-use deictic::vocabulary::Lexicon;
 use deictic_bits::random::Random;
 use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
-use deictic_core::large::Sentence;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::sentence::LANGUAGE;
 use deictic_core::time::Micros;
 
 use super::around::Around;
 use super::line::Faults;
+pub use super::setting::Setting;
 use super::watch::Watch;
 use super::world::World;
 
@@ -68,32 +65,6 @@ const TURN: Duration = Duration::from_millis(20);
 
 /// How long a command may take until it must have ended, whatever the faults.
 const PATIENCE: Micros = Micros::from_millis(120_000);
-
-/// What every session starts from.
-pub struct Setting {
-    lexicon: Lexicon,
-    table: Tabletop,
-}
-
-impl Default for Setting {
-    fn default() -> Self {
-        let lexicon = Lexicon::tabletop().expect("the built-in vocabulary is sound");
-        let table = SceneFile::table().expect("the built-in scene is sound");
-        let table = table.tabletop(&lexicon).expect("they belong together");
-        Self { lexicon, table }
-    }
-}
-
-impl Setting {
-    fn say(&self, text: &str, modality: u8) -> Sentence {
-        let shown = showing(text, &self.lexicon).expect("a command of the list");
-        let mut sentence = Sentence::new(modality);
-        for word in shown.words() {
-            sentence.push(word.clone()).expect("it fitted before");
-        }
-        sentence
-    }
-}
 
 /// Runs the session of this seed.
 ///

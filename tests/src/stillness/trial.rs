@@ -8,14 +8,10 @@ use deictic::hand::meaning::HandSetup;
 use deictic::link::Wire;
 use deictic::robot::remote::{Carrier, OnBus, Remote};
 use deictic::robot::{Posture, Robot};
-use deictic::scene::{SceneFile, Tabletop};
 use deictic::session::Session;
-use deictic::showing::showing;
-use deictic::vocabulary::Lexicon;
 use deictic_core::command::parcel::Sender;
 use deictic_core::gesture::mapping::Gesture;
 use deictic_core::gesture::shape::Shape;
-use deictic_core::large::Sentence;
 use deictic_core::protocol::hand::Meaning;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::sentence::{GESTURE, LANGUAGE};
@@ -26,6 +22,7 @@ use super::bus::bus;
 use super::far::Far;
 use super::load::Load;
 use crate::network::around::Around;
+pub use crate::network::setting::Setting;
 use crate::network::watch::Watch;
 use crate::network::world::World;
 
@@ -46,32 +43,6 @@ const AFTER: u64 = 500;
 
 /// How much slower than a careful arm it is, so that it still moves when the hand comes to its stop.
 const HASTE: f32 = 0.3;
-
-/// What every trial starts from.
-pub struct Setting {
-    lexicon: Lexicon,
-    table: Tabletop,
-}
-
-impl Default for Setting {
-    fn default() -> Self {
-        let lexicon = Lexicon::tabletop().expect("the built-in vocabulary is sound");
-        let table = SceneFile::table().expect("the built-in scene is sound");
-        let table = table.tabletop(&lexicon).expect("they belong together");
-        Self { lexicon, table }
-    }
-}
-
-impl Setting {
-    fn say(&self, text: &str, modality: u8) -> Sentence {
-        let shown = showing(text, &self.lexicon).expect("a command of the vocabulary");
-        let mut sentence = Sentence::new(modality);
-        for word in shown.words() {
-            sentence.push(word.clone()).expect("it fitted before");
-        }
-        sentence
-    }
-}
 
 /// How it ended, in control periods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
