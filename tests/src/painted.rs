@@ -25,7 +25,7 @@ pub struct Painted {
     qemu: Child,
     host: Box<dyn link::Wire>,
     sensor: Box<dyn link::Wire>,
-    control: TcpStream,
+    control: BufReader<TcpStream>,
     /// Where the stack may lie: from the end of the variables to its top.
     stack: std::ops::Range<u32>,
 }
@@ -79,14 +79,15 @@ impl Painted {
             host: "127.0.0.1".into(),
             port,
         };
-        let board = Self {
+        let mut board = Self {
             host: reach(|| link::open_line(&line(ports[0]))),
             sensor: reach(|| link::open_line(&line(ports[1]))),
-            control: reach(|| TcpStream::connect(("127.0.0.1", ports[2]))),
+            control: BufReader::new(reach(|| TcpStream::connect(("127.0.0.1", ports[2])))),
             qemu,
             stack,
         };
-        // QEMU has read it by the time it listens.
+        // QEMU listens before it reads the paint, but answers only after it.
+        board.ask("{\"execute\": \"qmp_capabilities\"}");
         let _ = std::fs::remove_file(&paint);
         board
     }
@@ -106,20 +107,15 @@ impl Painted {
     /// # Panics
     /// When QEMU does not do as it is told.
     #[must_use]
-    pub fn high_water(&self) -> u32 {
+    pub fn high_water(&mut self) -> u32 {
         let dump = std::env::temp_dir().join(format!("deictic-stack-{}", std::process::id()));
-        let mut answers = BufReader::new(self.control.try_clone().expect("a second handle"));
-        self.ask(&mut answers, "{\"execute\": \"qmp_capabilities\"}");
-        self.ask(&mut answers, "{\"execute\": \"stop\"}");
+        self.ask("{\"execute\": \"stop\"}");
         let (start, size) = (self.stack.start, self.stack.len());
-        self.ask(
-            &mut answers,
-            &format!(
-                "{{\"execute\": \"pmemsave\", \"arguments\": {{\"val\": {start}, \"size\": {size}, \
-                 \"filename\": \"{}\"}}}}",
-                dump.display()
-            ),
-        );
+        self.ask(&format!(
+            "{{\"execute\": \"pmemsave\", \"arguments\": {{\"val\": {start}, \"size\": {size}, \
+             \"filename\": \"{}\"}}}}",
+            dump.display()
+        ));
         let memory = std::fs::read(&dump).expect("QEMU has written it");
         let _ = std::fs::remove_file(&dump);
         assert_eq!(memory.len(), size);
@@ -128,14 +124,13 @@ impl Painted {
     }
 
     /// Asks the emulator for something and waits until it is done.
-    fn ask(&self, answers: &mut impl BufRead, what: &str) {
-        let mut control = &self.control;
-        writeln!(control, "{what}").expect("QEMU listens");
+    fn ask(&mut self, what: &str) {
+        writeln!(self.control.get_mut(), "{what}").expect("QEMU listens");
         let mut line = String::new();
         while !line.contains("\"return\"") {
             assert!(!line.contains("\"error\""), "{what}: {line}");
             line.clear();
-            let read = answers.read_line(&mut line).expect("QEMU answers");
+            let read = self.control.read_line(&mut line).expect("QEMU answers");
             assert!(read > 0, "QEMU is gone");
         }
     }

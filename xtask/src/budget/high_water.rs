@@ -1,11 +1,12 @@
 //! The deepest the stack was in whole conversations, measured on the unmodified image in QEMU.
 
 use std::path::Path;
+use std::process::Stdio;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail};
 use object::{Object, ObjectSymbol};
 
-use crate::process::{self, cargo};
+use crate::process::cargo;
 
 /// How often the conversations are begun.
 const ATTEMPTS: usize = 3;
@@ -26,16 +27,15 @@ pub fn high_water(image: &Path) -> Result<u32> {
         .arg(image)
         .args([address("__sheap")?, address("_stack_start")?]);
     // An emulated board that gets no time to run answers too late.
-    let used = (0..ATTEMPTS).find_map(|_| {
-        let said = process::output(&mut talk)?;
-        let line = said.lines().find_map(|l| l.strip_prefix("high-water "))?;
-        line.trim().parse().ok()
-    });
-    ensure!(
-        used.is_some(),
-        "the conversation with the painted board came to nothing: `cargo run -p deictic-tests --bin high-water -- {} \
-         START END` says why",
-        image.display()
-    );
-    Ok(used.unwrap_or_default())
+    for _ in 0..ATTEMPTS {
+        let ended = talk.stdin(Stdio::null()).output();
+        let ended = ended.context("cannot start cargo")?;
+        let said = String::from_utf8_lossy(&ended.stdout);
+        let line = said.lines().find_map(|l| l.strip_prefix("high-water "));
+        if let Some(used) = line.and_then(|used| used.trim().parse().ok()) {
+            return Ok(used);
+        }
+        eprint!("{}", String::from_utf8_lossy(&ended.stderr));
+    }
+    bail!("the conversation with the painted board came to nothing {ATTEMPTS} times, as said above")
 }
