@@ -6,17 +6,13 @@ mod conversation;
 mod error;
 mod event;
 mod loading;
+mod telling;
 mod trust;
 
 use std::time::{Duration, Instant};
 
-use deictic_core::gesture::wire::{Sample, encode};
-use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
-use deictic_core::profile::Model;
-use deictic_core::protocol::hand::SampleBytes;
-use deictic_core::protocol::message::{
-    Answer, Configuration, Fault, Hello, Loaded, RobotStatus, SentencePart,
-};
+use deictic_core::large::{Scene, Sentence, ToHost, Vocabulary};
+use deictic_core::protocol::message::{Configuration, Fault, Hello, Loaded, SentencePart};
 use deictic_core::sentence::GESTURE;
 
 use crate::clock;
@@ -122,106 +118,6 @@ impl GestureUnit {
     #[must_use]
     pub fn is_there(&self) -> bool {
         self.loaded
-    }
-
-    /// Tells the unit of a new scene, without waiting for it to take it over. Decisions made on an
-    /// older one are distrusted from now on; a unit that does not take it over counts as lost.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the scene is sent again when the unit comes back.
-    pub fn set_scene(&mut self, scene: &Scene) -> Result<(), UnitError> {
-        self.scene = scene.clone();
-        self.trust.set_scene(scene.version());
-        self.scene_due = Some(clock::now() + SCENE_PATIENCE);
-        self.with(|c| c.say_scene(scene))
-    }
-
-    /// Tells the unit what modalities observed at the same time.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it.
-    pub fn observe(&mut self, sentences: &[Sentence]) -> Result<(), UnitError> {
-        self.with(|c| c.together(|c| sentences.iter().try_for_each(|s| c.tell(s, None))))
-    }
-
-    /// Tells the unit what the person answered to the question of decision `decision`.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it.
-    pub fn answer(&mut self, decision: u32, sentence: Sentence) -> Result<(), UnitError> {
-        self.with(|c| c.tell(&sentence, Some(decision)))
-    }
-
-    /// Tells the unit how the answer to the question of decision `question` sounded.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it.
-    pub fn reply(&mut self, question: u32, likelihoods: &[f32]) -> Result<(), UnitError> {
-        self.with(|c| {
-            c.say(&ToUnit::Answer(Answer {
-                question,
-                likelihoods: likelihoods.iter().copied().collect(),
-            }))
-        })
-    }
-
-    /// Tells the unit how the robot fares.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it.
-    pub fn report(&mut self, status: RobotStatus) -> Result<(), UnitError> {
-        self.with(|c| c.say(&ToUnit::Robot(status)))
-    }
-
-    /// Tells the unit how to read a hand, now and whenever it comes back.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit is told when it comes back.
-    pub fn set_hand(&mut self, setup: HandSetup) -> Result<(), UnitError> {
-        self.hand = Some(setup.clone());
-        self.with(|c| c.say_hand(&setup))
-    }
-
-    /// Tells the unit what the sensors in use report, now and whenever it comes back. Only the joint
-    /// model goes by it.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit is told when it comes back.
-    pub fn set_sensors(&mut self, sensors: SensorModel) -> Result<(), UnitError> {
-        if self.configuration.profile.model != Model::Joint {
-            return Ok(());
-        }
-        self.sensors = Some(sensors.clone());
-        self.with(|c| c.say_sensors(&sensors))
-    }
-
-    /// Tells the unit what a hand sensor saw.
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it. A sample that cannot be is left out.
-    pub fn sense(&mut self, sample: &Sample) -> Result<(), UnitError> {
-        let Ok(bytes) = encode(sample) else {
-            return Ok(());
-        };
-        let bytes = SampleBytes::from_slice(&bytes).unwrap_or_default();
-        self.with(|c| c.say(&ToUnit::Sample(bytes)))
-    }
-
-    /// Asks the unit what it sees of a hand; the answers are an [`Event::Hand`] and an
-    /// [`Event::HandStatistics`].
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it.
-    pub fn ask_hand(&mut self) -> Result<(), UnitError> {
-        self.with(|c| c.say(&ToUnit::AskHand))
-    }
-
-    /// Asks the unit what it has counted; the answer is an [`Event::Statistics`].
-    ///
-    /// # Errors
-    /// [`UnitError`]; the unit has then not heard it.
-    pub fn ask_statistics(&mut self) -> Result<(), UnitError> {
-        self.with(|c| c.say(&ToUnit::AskStatistics))
     }
 
     /// Takes from the unit whatever it has in hand, by opening the conversation anew: nothing that it
@@ -370,22 +266,6 @@ impl GestureUnit {
         };
         self.beat = clock::now();
         events
-    }
-
-    /// Does something with the unit when it is there; one that cannot be told counts as lost.
-    fn with(
-        &mut self,
-        act: impl FnOnce(&mut Conversation) -> Result<(), UnitError>,
-    ) -> Result<(), UnitError> {
-        let Some(conversation) = self.conversation.as_mut().filter(|_| self.loaded) else {
-            return Err(UnitError::NoAnswer);
-        };
-        let done = act(conversation);
-        if let Err(error) = &done {
-            let lost = self.lose(Loss::Wire(error.in_full()));
-            self.happened.push(lost);
-        }
-        done
     }
 }
 

@@ -4,98 +4,15 @@
 //! The core knows numbers only. Names live on the host; [`Vocabulary::fingerprint`] is the host's
 //! hash over them, so that both sides can tell that they mean the same words.
 
+mod action;
+mod error;
+
 use heapless::Vec;
-use serde::{Deserialize, Serialize};
 
-use crate::category::{Category, CategorySet, FeatureSet};
+use crate::category::{Category, CategorySet};
 
-/// Which parameters an action takes, each category at most once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Signature {
-    /// Without these the action cannot be done.
-    pub compulsory: CategorySet,
-    /// These may be given; giving or leaving them costs nothing.
-    pub voluntary: CategorySet,
-}
-
-/// A conjunction of features that an action needs of an object or a storage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Requirement {
-    /// Features it must have.
-    pub wanted: FeatureSet,
-    /// Features it must not have.
-    pub unwanted: FeatureSet,
-}
-
-/// One action: its signature and what it needs of its object and storage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Action {
-    /// The parameters it takes.
-    pub signature: Signature,
-    /// What the target object must be like; without effect when no object is compulsory.
-    pub object: Requirement,
-    /// What the storage must be like; without effect when no storage is compulsory.
-    pub storage: Requirement,
-}
-
-impl Action {
-    /// The requirement on the things of one entity category.
-    #[must_use]
-    pub fn requirement(&self, category: Category) -> Requirement {
-        match category {
-            Category::OBJECT => self.object,
-            Category::STORAGE => self.storage,
-            _ => Requirement::default(),
-        }
-    }
-}
-
-/// Why a vocabulary was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum VocabularyError {
-    /// No action at all.
-    NoActions,
-    /// More actions than this build holds.
-    TooManyActions {
-        /// How many it holds.
-        capacity: u8,
-    },
-    /// More categories than this build holds, or than the 32 there can be.
-    TooManyCategories {
-        /// How many it holds.
-        capacity: u8,
-    },
-    /// A category has more options than this build holds.
-    TooManyOptions {
-        /// The category.
-        category: Category,
-        /// How many options it holds.
-        capacity: u8,
-    },
-    /// More features than this build holds, or than the 32 there can be.
-    TooManyFeatures {
-        /// How many it holds.
-        capacity: u8,
-    },
-    /// A signature names a category that the vocabulary does not have, or the action category,
-    /// which every action has without saying.
-    UnknownCategory {
-        /// The action whose signature it is.
-        action: u8,
-    },
-    /// A category is both compulsory and voluntary.
-    Contradiction {
-        /// The action whose signature or requirement it is.
-        action: u8,
-    },
-    /// A requirement names a feature that the vocabulary does not have.
-    UnknownFeature {
-        /// The action whose requirement it is.
-        action: u8,
-    },
-    /// The stop action does not exist or takes compulsory parameters.
-    BadStop,
-}
+pub use action::{Action, Requirement, Signature};
+pub use error::VocabularyError;
 
 /// All words of one installation, without their names.
 ///
