@@ -1,12 +1,10 @@
 //! `deictic setups`: the paper's user study replayed on a unit.
 
+mod deciding;
+
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
 use clap::Args;
-use deictic_core::fuse::{Situation, fuse};
-use deictic_core::joint::Tables;
-use deictic_core::large::{Decision, Observations, Sentence, Trace};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -17,12 +15,12 @@ use super::profile::Choice;
 use super::{advice, paint};
 use crate::explain::{self, Advice};
 use crate::link::Address;
-use crate::scene::Tabletop;
 use crate::sensor::{Noise, Sensors};
 use crate::sensor_model::SensorModel;
 use crate::setups::{self, Kind, Tally};
-use crate::unit::{Event, GestureUnit};
+use crate::unit::GestureUnit;
 use crate::vocabulary::Lexicon;
+use deciding::{decide_here, decide_there};
 
 /// Replay published table set-ups: each command aligned and in four contradicting pairs
 ///
@@ -238,69 +236,4 @@ impl Setups {
         }
         Ok(())
     }
-}
-
-fn decide_here(
-    lexicon: &Lexicon,
-    table: &Tabletop,
-    sentences: &[Sentence],
-    configuration: &Configuration,
-    sensors: Tables<'_>,
-) -> Result<Decision> {
-    let refused = |what: Advice| advice(what.what, what.remedy);
-    let mut observations = Observations::new();
-    for sentence in sentences {
-        let inserted = observations.insert(sentence.clone(), lexicon.vocabulary());
-        inserted.map_err(|e| refused(explain::sentence_error(&e)))?;
-    }
-    let situation = Situation {
-        vocabulary: lexicon.vocabulary(),
-        scene: table.scene(),
-        observations: &observations,
-        sensors,
-    };
-    fuse(
-        situation,
-        &configuration.profile,
-        &mut Box::new(Trace::new()),
-    )
-    .map_err(|e| refused(explain::profile_error(&e)))
-}
-
-fn decide_there(unit: &mut GestureUnit, sentences: [Sentence; 2]) -> Result<Decision> {
-    unit.observe(&sentences)?;
-    let patience = Instant::now() + Duration::from_secs(20);
-    while Instant::now() < patience {
-        for event in unit.poll(Duration::from_millis(200)) {
-            match event {
-                Event::Decision {
-                    decided,
-                    trust: Ok(()),
-                } => return Ok(decided.decision),
-                Event::Decision {
-                    trust: Err(distrust),
-                    ..
-                } => {
-                    let Advice { what, remedy } = explain::distrust(&distrust);
-                    return Err(advice(
-                        format!("a decision cannot be trusted: {what}"),
-                        remedy,
-                    ));
-                }
-                Event::Fault(fault) => {
-                    let Advice { what, remedy } = explain::fault(&fault);
-                    return Err(advice(what, remedy));
-                }
-                Event::Lost(loss) => {
-                    let Advice { what, remedy } = explain::loss(&loss);
-                    return Err(advice(what, remedy));
-                }
-                _ => {}
-            }
-        }
-    }
-    Err(advice(
-        "the unit did not decide in time",
-        "look at its log with `cargo xtask qemu`",
-    ))
 }
