@@ -54,16 +54,26 @@ fn expected(bytes: &[u8]) -> Vec<(usize, Vec<u8>)> {
     frames
 }
 
-/// CRC-32/ISO-HDLC bit by bit, as its parameters read.
-fn crc32(bytes: &[u8]) -> u32 {
-    let mut crc = u32::MAX;
-    for byte in bytes {
-        crc ^= u32::from(*byte);
-        for _ in 0..8 {
+/// CRC-32/ISO-HDLC as its parameters read, of all bytes that there are.
+const REMAINDERS: [u32; 256] = {
+    let mut table = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut crc, mut bit) = (byte as u32, 0);
+        while bit < 8 {
             crc = (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg());
+            bit += 1;
         }
+        table[byte] = crc;
+        byte += 1;
     }
-    !crc
+    table
+};
+
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (crc >> 8) ^ REMAINDERS[(crc as u8 ^ byte) as usize]
+    })
 }
 
 fn framed(contents: &[u8]) -> Vec<u8> {
