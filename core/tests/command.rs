@@ -9,7 +9,7 @@ use deictic_core::command::field::{
 use deictic_core::command::letter::Letters;
 use deictic_core::command::message::*;
 use deictic_core::command::parcel::{Assembler, ParcelError, Sender, frames};
-use deictic_core::command::{LONGEST, Packet, PacketError};
+use deictic_core::command::{LONGEST, Packet, PacketError, seal};
 use deictic_core::protocol::stuffing::Outbox;
 use proptest::prelude::*;
 
@@ -49,6 +49,7 @@ fn to_robot() -> Vec<ToRobot> {
     vec![
         Halt { id }.into(),
         HostBeat { id }.into(),
+        Prove { nonce: 1 << 40 }.into(),
         Hold { id }.into(),
         Resume { id }.into(),
         Home { id }.into(),
@@ -117,6 +118,7 @@ fn from_robot() -> Vec<FromRobot> {
             fault: Fault::Collision,
             text,
         }),
+        Challenge { nonce: 1 << 50 }.into(),
         FromRobot::Moved(Moved {
             thing: Name::object(4).unwrap(),
             place: Place([1, -2, 3]),
@@ -173,7 +175,8 @@ fn every_message_has_a_layout_of_its_own_that_fits() {
     assert_eq!(ids.len(), all.len() + 2, "two messages share an identifier");
     assert!(ids.iter().all(|id| *id < 0x200));
     for layout in &all {
-        assert!(layout.bytes() <= LONGEST, "{} is too long", layout.name);
+        let sealed = layout.bytes() + seal::ROOM;
+        assert!(sealed <= LONGEST, "{} is too long", layout.name);
     }
     // Every message is among those that the other tests go through.
     assert_eq!(packets().len(), all.len());

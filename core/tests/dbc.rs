@@ -111,7 +111,9 @@ fn file() -> String {
         let _ = writeln!(
             texts.comments,
             "CM_ BO_ {id} \"A message of more than seven bytes, as in ISO 15765-2 without flow control: its \
-             identifier in two bytes, its bytes, CRC-16 (IBM-3740) over both; all little end first.\";"
+             identifier in two bytes, its bytes, CRC-16 (IBM-3740) over both; all little end first. Sealed, whatever \
+             its length: 32768 is added to the identifier, and a counter of two bytes and a tag of four stand behind \
+             the bytes (docs/robot.md).\";"
         );
         let _ = writeln!(texts.values, "VAL_ {id} Kind 1 \"First\" 2 \"Next\" ;");
     }

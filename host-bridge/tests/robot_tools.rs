@@ -14,9 +14,20 @@ use deictic::link::Pair;
 use deictic::robot::end::{End, Listener, Served};
 use deictic::robot::sim::Sim;
 use deictic::vocabulary::Lexicon;
+use deictic_core::protocol::seal::{KEY, Key};
 
 #[test]
 fn python_can_and_cantools_understand_the_robot() {
+    speaks(None);
+}
+
+#[test]
+fn python_seals_what_it_says_and_opens_what_it_hears() {
+    speaks(Some(0x5a));
+}
+
+/// Has the Python host speak to a robot that has the key of 32 such bytes, or none.
+fn speaks(byte: Option<u8>) {
     let Ok(python) = std::env::var("DEICTIC_PYTHON") else {
         eprintln!("skipped: DEICTIC_PYTHON names no Python with python-can and cantools");
         return;
@@ -34,6 +45,9 @@ fn python_can_and_cantools_understand_the_robot() {
             adapter: true,
         };
         let mut served = Served::new(end, listener);
+        if let Some(key) = byte.and_then(|byte| Key::new(&[byte; KEY])) {
+            served = served.with_key(&key).unwrap();
+        }
         while !ends.load(Ordering::Relaxed) {
             served.turn(Duration::from_millis(10));
         }
@@ -42,6 +56,7 @@ fn python_can_and_cantools_understand_the_robot() {
     let output = Command::new(python)
         .arg(format!("{here}/tests/tools/robot.py"))
         .args([&port, &format!("{here}/../docs/deictic.dbc"), &vocabulary])
+        .args(byte.map(|byte| format!("{byte:02x}").repeat(KEY)))
         .output()
         .unwrap();
     over.store(true, Ordering::Relaxed);
@@ -51,4 +66,5 @@ fn python_can_and_cantools_understand_the_robot() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}{error}");
     assert!(said.contains("frames decoded"), "{said}");
+    assert_eq!(said.contains("under a seal"), byte.is_some(), "{said}");
 }

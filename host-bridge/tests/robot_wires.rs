@@ -1,11 +1,12 @@
-//! The simulated robot behind every link that it can be reached over: the demo's twenty commands, which depend on each
-//! other, end alike on all of them.
+//! The simulated robot behind every link that it can be reached over, with a key and without: the demo's twenty commands,
+//! which depend on each other, end alike on all of them.
 //!
 //! `DEICTIC_CAN` names a CAN interface of this machine, such as vcan0; with it that link alone is tried,
 //! without it all others. `cargo xtask can` makes one, if need be in a Linux of its own.
 
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Child, Command as Process, Stdio};
 use std::thread;
 
@@ -22,28 +23,38 @@ fn interface() -> Option<String> {
     named
 }
 
-/// Where the simulated robot is to listen.
-fn places() -> Vec<String> {
+/// Where the simulated robot is to listen, and whether it has a key.
+fn places() -> Vec<(String, bool)> {
     // A guest that has CAN has one processor: the links that are everywhere are tried outside.
     if let Some(name) = interface() {
-        return vec![format!("can:{name}")];
+        return vec![(format!("can:{name}"), true)];
     }
     let everywhere = [
-        "tcp:127.0.0.1:0",
-        "serial:pty",
-        "slcan:pty",
-        "slcan:tcp:127.0.0.1:0",
+        ("tcp:127.0.0.1:0", false),
+        ("serial:pty", true),
+        ("slcan:pty", true),
+        ("slcan:tcp:127.0.0.1:0", false),
     ];
-    everywhere.map(str::to_owned).to_vec()
+    everywhere.map(|(at, key)| (at.to_owned(), key)).to_vec()
+}
+
+/// A key in a file.
+fn key() -> tempfile::NamedTempFile {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), "5a".repeat(32)).unwrap();
+    file
 }
 
 /// A robot in a process of its own.
 struct Far(Child);
 
 impl Far {
-    fn listening(at: &str) -> (Self, String) {
+    fn listening(at: &str, key: Option<&Path>) -> (Self, String) {
         let mut process = Process::new(env!("CARGO_BIN_EXE_deictic"));
         process.args(["robot-sim", "--json", "--haste", "8", "--listen", at]);
+        if let Some(key) = key {
+            process.arg("--key").arg(key);
+        }
         let mut child = process.stdout(Stdio::piped()).spawn().unwrap();
         let mut line = String::new();
         let mut output = BufReader::new(child.stdout.take().unwrap());
@@ -63,9 +74,13 @@ impl Drop for Far {
 }
 
 /// How every command of the demo ends with this robot. Where a stop meets the arm is not compared.
-fn endings(robot: &str) -> Vec<String> {
+fn endings(robot: &str, key: Option<&Path>) -> Vec<String> {
     let mut process = Process::new(env!("CARGO_BIN_EXE_deictic"));
     process.args(["play", "--json", "--haste", "8", "--robot", robot]);
+    match key {
+        Some(key) => process.arg("--robot-key").arg(key),
+        None => process.arg("--insecure-robot"),
+    };
     let output = process.output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(
@@ -88,11 +103,13 @@ fn endings(robot: &str) -> Vec<String> {
 
 #[test]
 fn twenty_commands_end_alike_over_every_link() {
-    let near = thread::spawn(|| endings("sim"));
-    let far = places().into_iter().map(|at| {
+    let near = thread::spawn(|| endings("sim", None));
+    let far = places().into_iter().map(|(at, sealed)| {
         thread::spawn(move || {
-            let (_far, address) = Far::listening(&at);
-            (at, endings(&address))
+            let file = sealed.then(key);
+            let key = file.as_ref().map(|file| file.path());
+            let (_far, address) = Far::listening(&at, key);
+            (at, endings(&address, key))
         })
     });
     let far: Vec<_> = far.collect();

@@ -99,6 +99,7 @@ integer! {
     u8: 1, false;
     u16: 2, false;
     u32: 4, false;
+    u64: 8, false;
     i32: 4, true;
 }
 

@@ -147,6 +147,11 @@ messages! {
             /// The newest command that was given; 0 before the first.
             id: Id,
         }
+        /// The host answers a challenge, sealed as the first message of a conversation.
+        0x021 Prove {
+            /// What the host has never said before.
+            nonce: u64,
+        }
         /// Pause in the middle of the command, ready to go on.
         0x031 Hold {
             /// The command that is being done.
@@ -303,6 +308,11 @@ messages! {
             fault: Fault,
             /// In words.
             text: Text,
+        }
+        /// The robot has a key, and the host that beats in clear is to show that it has the same.
+        0x11a Challenge {
+            /// What the robot has never said before.
+            nonce: u64,
         }
         /// By the command, a thing is elsewhere now.
         0x120 Moved {

@@ -14,14 +14,15 @@ pub mod field;
 pub mod letter;
 pub mod message;
 pub mod parcel;
+pub mod seal;
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::time::Micros;
 
-/// Bytes of the longest message.
-pub const LONGEST: usize = 56;
+/// Bytes of the longest message with its seal.
+pub const LONGEST: usize = 56 + seal::ROOM;
 
 /// Bytes of the longest message that goes into one classic CAN frame, whose last byte is a check.
 pub const SHORT: usize = 7;

@@ -4,7 +4,7 @@
 //! the seventh, and a CRC-8 over identifier and bytes. CAN's own CRC ends where a serial adapter's
 //! text begins, so what can move an arm has one of its own.
 //!
-//! A longer one goes in frames of its sender's long identifier, segmented as in ISO 15765-2: first
+//! A longer one, or one that is sealed, goes in frames of its sender's long identifier, segmented as in ISO 15765-2: first
 //! `0x1LLL` and six bytes, then `0x2S` and seven bytes each, `LLL` being the length of what is
 //! carried and `S` a number that rises from 1 and wraps after 15. There is no flow control: every
 //! receiver has room for the longest message, ten frames. Carried are the message's identifier in two
@@ -14,6 +14,7 @@ use crc::{CRC_8_SAE_J1850, CRC_16_IBM_3740, Crc, NoTable};
 use heapless::Vec;
 
 use super::message::{FromRobot, Layout, ToRobot};
+use super::seal::SEALED;
 use super::{LONGEST, Packet, SHORT};
 use crate::can::Frame;
 
@@ -74,7 +75,7 @@ pub struct Frames {
 #[must_use]
 pub fn frames(sender: Sender, packet: &Packet) -> Frames {
     let mut bytes = Vec::new();
-    let short = packet.bytes.len() <= SHORT;
+    let short = packet.bytes.len() <= SHORT && packet.id & SEALED == 0;
     // There is room for the longest packet and its four further bytes.
     if !short {
         let _ = bytes.extend_from_slice(&packet.id.to_le_bytes());

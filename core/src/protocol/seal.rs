@@ -34,6 +34,10 @@ pub enum Way {
     ToUnit,
     /// From the unit to the host.
     ToHost,
+    /// From the host to a robot.
+    ToRobot,
+    /// From a robot to the host.
+    FromRobot,
 }
 
 impl Way {
@@ -41,13 +45,17 @@ impl Way {
         match self {
             Self::ToUnit => 1,
             Self::ToHost => 2,
+            Self::ToRobot => 3,
+            Self::FromRobot => 4,
         }
     }
 
-    const fn back(self) -> Self {
+    pub(crate) const fn back(self) -> Self {
         match self {
             Self::ToUnit => Self::ToHost,
             Self::ToHost => Self::ToUnit,
+            Self::ToRobot => Self::FromRobot,
+            Self::FromRobot => Self::ToRobot,
         }
     }
 }
@@ -55,7 +63,7 @@ impl Way {
 /// What nobody has said before: each end gives one when a conversation opens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Nonces {
-    /// The unit's.
+    /// The unit's, or the robot's.
     pub unit: u64,
     /// The host's.
     pub host: u64,
@@ -127,7 +135,7 @@ impl Seal {
         &mut self.key
     }
 
-    pub(super) fn way(&self) -> Way {
+    pub(crate) fn way(&self) -> Way {
         self.way
     }
 
@@ -139,9 +147,19 @@ impl Seal {
 
     /// Whether `tag` is that of the other end's frame number `counter` with these contents.
     pub(super) fn is_sound(&mut self, counter: u64, contents: &[u8], tag: &[u8; TAG]) -> bool {
-        self.begin(self.way.back(), counter);
-        self.key.0.update(contents);
-        same(&self.key.finish(), tag)
+        same(&self.tag(self.way.back(), counter, [contents]), tag)
+    }
+
+    /// The tag of message number `counter` that goes `way`, of these contents one behind the other.
+    pub(crate) fn tag<const N: usize>(
+        &mut self,
+        way: Way,
+        counter: u64,
+        contents: [&[u8]; N],
+    ) -> [u8; TAG] {
+        self.begin(way, counter);
+        contents.iter().for_each(|part| self.key.0.update(part));
+        self.key.finish()
     }
 
     fn begin(&mut self, way: Way, counter: u64) {
@@ -151,7 +169,10 @@ impl Seal {
 }
 
 /// Compares without telling by its time where the first difference is.
-fn same(a: &[u8; TAG], b: &[u8; TAG]) -> bool {
+pub(crate) fn same(a: &[u8], b: &[u8]) -> bool {
+    if a.len() != b.len() {
+        return false;
+    }
     let difference = a.iter().zip(b).fold(0, |all, (a, b)| all | (a ^ b));
     core::hint::black_box(difference) == 0
 }

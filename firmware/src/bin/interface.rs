@@ -15,6 +15,7 @@ use deictic_core::clarify::choose::choose;
 use deictic_core::clarify::{Confirmation, gain};
 use deictic_core::command::message::{FromRobot, ToRobot};
 use deictic_core::command::parcel::{Assembler, Sender, frames};
+use deictic_core::command::seal::{Guard, Heard};
 use deictic_core::command::{Packet, field};
 use deictic_core::decide::decide;
 use deictic_core::fuse::{Situation, fuse, says_clearly};
@@ -234,6 +235,7 @@ fn lines() {
         bytes: heapless::Vec::from_slice(bytes.get(..any(30)).unwrap_or(&[])).unwrap_or_default(),
     };
     for sender in [Sender::Host, Sender::Robot] {
+        guarded(sender, &packet);
         let mut assembler = Assembler::new(sender);
         for frame in frames(sender, &packet) {
             black_box(line(&frame).len());
@@ -268,4 +270,24 @@ fn lines() {
     let mut out = Outbox::<1024>::new();
     black_box(link.send(&large::ToUnit::AskStatistics, &mut out));
     black_box(link.counters().dropped());
+}
+
+/// A packet past a guard and back.
+fn guarded(side: Sender, packet: &Packet) {
+    let Some(key) = Key::new(&any([2; 32])) else {
+        return;
+    };
+    let mut guard = Guard::new(side, key, any(4), any(3));
+    let answer = match guard.hear(packet) {
+        Heard::Message(packet) | Heard::Answer(packet) => packet,
+        Heard::Nothing => packet.clone(),
+    };
+    for said in guard.say(&answer) {
+        black_box(guard.hear(&said) == Heard::Nothing);
+    }
+    black_box((
+        guard.refused().all(),
+        guard.is_challenged(),
+        guard.is_proven(),
+    ));
 }

@@ -96,7 +96,8 @@ impl Play {
             ..Configuration::DEFAULT
         };
         let opener = self.trust.opener(&self.board, &self.robot)?;
-        let robot = reach(&self.robot, &lexicon, self.haste)?;
+        let robot_key = self.trust.robot_key(&self.robot)?;
+        let robot = reach(&self.robot, &lexicon, self.haste, robot_key.as_ref())?;
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let printer = Printer {
             json: self.json,

@@ -125,7 +125,8 @@ impl Run {
             explain: self.explain,
             ..Configuration::DEFAULT
         };
-        let robot = reach(&self.robot, &lexicon, self.haste)?;
+        let robot_key = self.trust.robot_key(&self.robot)?;
+        let robot = reach(&self.robot, &lexicon, self.haste, robot_key.as_ref())?;
         let opener = self.trust.opener(&self.board, &self.robot)?;
         let mut session = Session::open(opener, robot, table, &lexicon, configuration)?;
         let setup = self.sensing.setup(session.table(), &lexicon)?;

@@ -17,7 +17,10 @@ pub struct Trust {
     /// The key that the unit was flashed with: a file of 64 hexadecimal digits; `cargo xtask key` makes one
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
-    /// Let a robot move although the unit has no key, so that whoever reaches the line can speak for it
+    /// The key that the robot behind a link was started with: a file of the same form
+    #[arg(long, value_name = "FILE")]
+    robot_key: Option<PathBuf>,
+    /// Let a robot move although the unit or the robot has no key, so that whoever reaches its line can speak for it
     #[arg(long)]
     insecure_robot: bool,
 }
@@ -50,6 +53,19 @@ pub enum TrustError {
          say --insecure-robot when nobody else can reach the line"
     ))]
     NoKey(robot::address::Address),
+    /// The robot would listen to anybody.
+    #[error("there is no key for the robot, so anybody who reaches {0} could move it")]
+    #[diagnostic(help(
+        "start the robot with a key and give it here too (--robot-key FILE; docs/threat-model.md), or say \
+         --insecure-robot when nobody else can reach the link"
+    ))]
+    NoRobotKey(robot::address::Address),
+    /// There is no link for a key.
+    #[error("--robot-key is for a robot that speaks the command set, and {0} does not")]
+    #[diagnostic(help(
+        "leave it out; only can:, slcan:, serial: and tcp: can be sealed (docs/robot.md)"
+    ))]
+    NoLink(robot::address::Address),
 }
 
 impl Trust {
@@ -83,8 +99,27 @@ impl Trust {
     }
 }
 
+impl Trust {
+    /// The key that the robot at this address must have.
+    ///
+    /// # Errors
+    /// [`TrustError`]
+    pub fn robot_key(&self, robot: &robot::address::Address) -> Result<Option<Key>, TrustError> {
+        let key = self.robot_key.as_deref().map(read).transpose()?;
+        let over_a_link = matches!(robot, robot::address::Address::Over(_));
+        match (&key, over_a_link) {
+            (Some(_), false) => Err(TrustError::NoLink(robot.clone())),
+            (None, true) if !self.insecure_robot => Err(TrustError::NoRobotKey(robot.clone())),
+            _ => Ok(key),
+        }
+    }
+}
+
 /// The key in a file.
-fn read(path: &Path) -> Result<Key, TrustError> {
+///
+/// # Errors
+/// [`TrustError`]
+pub fn read(path: &Path) -> Result<Key, TrustError> {
     let text = std::fs::read_to_string(path).map_err(|cause| TrustError::File {
         path: path.to_owned(),
         cause,
@@ -104,6 +139,7 @@ mod tests {
     fn trust(key: Option<&Path>, insecure_robot: bool) -> Trust {
         Trust {
             key: key.map(Path::to_owned),
+            robot_key: None,
             insecure_robot,
         }
     }
@@ -122,6 +158,24 @@ mod tests {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), "0f".repeat(KEY)).unwrap();
         assert!(trust(Some(file.path()), false).opener(&board, &arm).is_ok());
+    }
+
+    #[test]
+    fn a_robot_behind_a_link_has_a_key_unless_told_otherwise() {
+        let (sim, far) = ("sim".parse().unwrap(), "can:can0".parse().unwrap());
+        let none = trust(None, false);
+        assert!(matches!(none.robot_key(&sim), Ok(None)));
+        let refused = none.robot_key(&far);
+        assert!(matches!(refused, Err(TrustError::NoRobotKey(_))));
+        assert!(matches!(trust(None, true).robot_key(&far), Ok(None)));
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), "0f".repeat(KEY)).unwrap();
+        let keyed = Trust {
+            robot_key: Some(file.path().to_owned()),
+            ..trust(None, false)
+        };
+        assert!(matches!(keyed.robot_key(&far), Ok(Some(_))));
+        assert!(matches!(keyed.robot_key(&sim), Err(TrustError::NoLink(_))));
     }
 
     #[test]

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use deictic_core::protocol::seal::Key;
+
 use super::Robot;
 use super::fci::{Fci, FciFault};
 use super::sim::Sim;
@@ -85,7 +87,8 @@ impl fmt::Display for Address {
     }
 }
 
-/// Reaches a robot; a simulated one in this process moves `haste` times as fast as a careful one.
+/// Reaches a robot; a simulated one in this process moves `haste` times as fast as a careful one, and one over a link has
+/// this key, where one is given.
 ///
 /// # Errors
 /// [`RobotError`] with what to do about it.
@@ -93,13 +96,14 @@ pub fn reach(
     address: &Address,
     lexicon: &Lexicon,
     haste: f32,
+    key: Option<&Key>,
 ) -> Result<Box<dyn Robot>, RobotError> {
     Ok(match address {
         Address::Sim => Box::new(Sim::new(haste)),
         Address::Fci { host, realtime } => {
             Box::new(Fci::connect(host, host, *realtime).map_err(RobotError::Fci)?)
         }
-        Address::Over(way) => Box::new(way::reach(way, lexicon)?),
+        Address::Over(way) => Box::new(way::reach(way, lexicon, key)?),
     })
 }
 

@@ -6,8 +6,10 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use deictic_core::command::parcel::Sender;
+use deictic_core::command::seal::{ON_A_BUS, ON_A_STREAM};
+use deictic_core::protocol::seal::Key;
 
-use super::remote::{Carrier, OnBus, OnWire, Opener, Remote};
+use super::remote::{Carrier, Gate, OnBus, OnWire, Opener, Remote};
 use crate::link::{self, Line, WireError};
 use crate::vocabulary::Lexicon;
 
@@ -69,6 +71,36 @@ pub enum ReachError {
          starts a simulated one"
     ))]
     Silent(Way),
+    /// It listens only to who has its key.
+    #[error("the robot at {0} listens only to a bridge that has its key")]
+    #[diagnostic(help("give the key that the robot was started with: --robot-key FILE"))]
+    WantsKey(Way),
+    /// It does not ask for a key, and what it says is not sealed.
+    #[error("whoever answers at {0} does not have the robot's key")]
+    #[diagnostic(help(
+        "start the robot with the key (`deictic robot-sim --key FILE`), or leave --robot-key out, with \
+         --insecure-robot, when nobody else can reach the link"
+    ))]
+    NoKey(Way),
+    /// It asks for another key.
+    #[error("the robot at {0} has another key")]
+    #[diagnostic(help("give the key that the robot was started with: --robot-key FILE"))]
+    OtherKey(Way),
+    /// There is nothing random here to prove with.
+    #[error("the link to the robot cannot be sealed")]
+    #[diagnostic(help("this machine gives no random numbers"))]
+    NoChance(#[source] io::Error),
+}
+
+impl Way {
+    /// How many bytes the tags of sealed messages have on it.
+    #[must_use]
+    pub fn tag(&self) -> usize {
+        match self {
+            Self::Can(_) | Self::Slcan(_) => ON_A_BUS,
+            Self::Line(_) => ON_A_STREAM,
+        }
+    }
 }
 
 impl FromStr for Way {
@@ -96,11 +128,11 @@ impl fmt::Display for Way {
     }
 }
 
-/// Reaches a robot that speaks the command set.
+/// Reaches a robot that speaks the command set; one that has this key, where one is given.
 ///
 /// # Errors
 /// [`ReachError`] with what to do about it.
-pub fn reach(way: &Way, lexicon: &Lexicon) -> Result<Remote, ReachError> {
+pub fn reach(way: &Way, lexicon: &Lexicon, key: Option<&Key>) -> Result<Remote, ReachError> {
     // Opened once here for an error with a remedy; later failures only mean to try again.
     let first = carrier(way).map_err(|error| match error {
         WireError::Tcp { cause, .. } => ReachError::NotListening {
@@ -119,11 +151,18 @@ pub fn reach(way: &Way, lexicon: &Lexicon) -> Result<Remote, ReachError> {
         way: way.clone(),
         cause,
     };
-    let mut remote = Remote::open(opener, lexicon).map_err(broken)?;
-    match remote.wait(PATIENCE) {
-        Ok(()) => Ok(remote),
-        Err(_) => Err(ReachError::Silent(way.clone())),
+    let gate = Gate::new(Sender::Host, key, way.tag()).map_err(ReachError::NoChance)?;
+    let mut remote = Remote::behind(gate, opener, lexicon).map_err(broken)?;
+    if remote.wait(PATIENCE).is_ok() {
+        return Ok(remote);
     }
+    let at = way.clone();
+    Err(match remote.gate().guard() {
+        None if remote.wants_key() => ReachError::WantsKey(at),
+        Some(guard) if guard.is_challenged() => ReachError::OtherKey(at),
+        Some(guard) if guard.refused().all() > 0 => ReachError::NoKey(at),
+        _ => ReachError::Silent(at),
+    })
 }
 
 /// Opens the link to a robot.

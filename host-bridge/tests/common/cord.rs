@@ -7,10 +7,11 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use deictic::robot::end::End;
-use deictic::robot::remote::Carrier;
+use deictic::robot::remote::{Carrier, Gate};
 use deictic::robot::sim::Sim;
 use deictic::robot::{Command, CommandId, Event, Posture, Refusal, Robot, Taken, World};
 use deictic_core::command::Packet;
+use deictic_core::command::seal::Heard;
 use deictic_core::time::Micros;
 
 /// Which way a packet goes.
@@ -86,6 +87,7 @@ impl Robot for Counted {
 /// The far end and the line to it.
 pub struct Far {
     pub end: End,
+    pub gate: Gate,
     pub now: Micros,
     pub spoil: Option<Spoil>,
     /// Reading and writing fail.
@@ -105,10 +107,28 @@ impl Far {
         Ok(arrive)
     }
 
+    /// The far end takes what has come to it; gives what it says.
+    pub fn take(&mut self, packet: &Packet) -> Vec<Packet> {
+        let mut out = Vec::new();
+        match self.gate.hear(packet.clone()) {
+            Heard::Message(packet) => self.end.take(self.now, &packet, &mut out),
+            Heard::Answer(packet) => return vec![packet],
+            Heard::Nothing => {}
+        }
+        self.seal(&out)
+    }
+
+    fn seal(&mut self, out: &[Packet]) -> Vec<Packet> {
+        out.iter()
+            .flat_map(|packet| self.gate.say(packet))
+            .collect()
+    }
+
     /// The far end lives on, whoever listens.
     pub fn live(&mut self) {
         let mut out = Vec::new();
         self.end.poll(self.now, &mut out);
+        let out = self.seal(&out);
         if !self.cut {
             let arrived = self.carry(Way::ToHost, out).unwrap_or_default();
             self.to_host.extend(arrived);
@@ -126,8 +146,7 @@ impl Carrier for Cord {
             return Err(io::Error::other("pulled"));
         }
         for packet in far.carry(Way::ToRobot, vec![packet.clone()])? {
-            let (now, mut out) = (far.now, Vec::new());
-            far.end.take(now, &packet, &mut out);
+            let out = far.take(&packet);
             let out = far.carry(Way::ToHost, out)?;
             far.to_host.extend(out);
         }

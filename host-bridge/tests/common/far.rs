@@ -9,18 +9,31 @@ use std::io;
 use std::sync::{Arc, Mutex};
 
 use deictic::robot::end::End;
-use deictic::robot::remote::{Carrier, Remote};
+use deictic::robot::remote::{Carrier, Gate, Remote};
 use deictic::robot::sim::Sim;
 use deictic::robot::{Command, CommandId, Event, Refusal, Robot, Taken, World};
 use deictic::scene::{SceneFile, Tabletop};
 use deictic::vocabulary::Lexicon;
 use deictic_core::category::Category;
 use deictic_core::command::Packet;
+use deictic_core::command::parcel::Sender;
+use deictic_core::command::seal::ON_A_BUS;
 use deictic_core::intent::Parameter;
 use deictic_core::large::Intent;
+use deictic_core::protocol::seal::{KEY, Key};
 use deictic_core::time::Micros;
 
 pub use cord::{Cord, Counted, Far, Way};
+
+/// The key of 32 such bytes.
+pub fn key(byte: u8) -> Key {
+    Key::new(&[byte; KEY]).unwrap()
+}
+
+/// The gate before a side that has this key, or none.
+pub fn gate(side: Sender, byte: Option<u8>) -> Gate {
+    Gate::new(side, byte.map(key).as_ref(), ON_A_BUS).unwrap()
+}
 
 /// How a command has ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +58,7 @@ pub struct Scene {
 impl Scene {
     /// The arm is in this process.
     pub fn near() -> Self {
-        Self::with(None)
+        Self::with(Gate::default(), None)
     }
 
     /// The arm is at the other end of a line.
@@ -59,11 +72,26 @@ impl Scene {
         Self::before(counted)
     }
 
+    /// The arm is at the other end of a line, and each side has a key, or none.
+    pub fn keyed(near: Option<u8>, far: Option<u8>) -> Self {
+        let counted = Counted {
+            inner: Sim::new(1.0),
+            begun: Arc::default(),
+            hangs: false,
+        };
+        Self::between(gate(Sender::Host, near), counted, gate(Sender::Robot, far))
+    }
+
     pub fn before(counted: Counted) -> Self {
+        Self::between(Gate::default(), counted, Gate::default())
+    }
+
+    fn between(near: Gate, counted: Counted, gate: Gate) -> Self {
         let lexicon = Lexicon::tabletop().unwrap();
         let begun = Arc::clone(&counted.begun);
         let far = Arc::new(Mutex::new(Far {
             end: End::new(Box::new(counted), lexicon, 1),
+            gate,
             now: Micros(0),
             spoil: None,
             cut: false,
@@ -71,11 +99,11 @@ impl Scene {
         }));
         Self {
             begun,
-            ..Self::with(Some(far))
+            ..Self::with(near, Some(far))
         }
     }
 
-    fn with(far: Option<Arc<Mutex<Far>>>) -> Self {
+    fn with(gate: Gate, far: Option<Arc<Mutex<Far>>>) -> Self {
         let lexicon = Lexicon::tabletop().unwrap();
         let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
         let robot: Box<dyn Robot> = match &far {
@@ -88,7 +116,7 @@ impl Scene {
                     }
                     Ok(Box::new(Cord(Arc::clone(&far))) as Box<dyn Carrier>)
                 });
-                Box::new(Remote::open(open, &lexicon).unwrap())
+                Box::new(Remote::behind(gate, open, &lexicon).unwrap())
             }
         };
         let mut scene = Self {

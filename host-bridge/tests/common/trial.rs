@@ -87,7 +87,7 @@ impl Near {
         let lexicon = Lexicon::tabletop().unwrap();
         let table = SceneFile::table().unwrap().tabletop(&lexicon).unwrap();
         Self {
-            robot: way::reach(way, &lexicon).unwrap(),
+            robot: way::reach(way, &lexicon, None).unwrap(),
             lexicon,
             table,
             began: Instant::now(),

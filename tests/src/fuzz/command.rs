@@ -5,6 +5,8 @@ use deictic_core::can::Frame;
 use deictic_core::command::Packet;
 use deictic_core::command::message::{FromRobot, ToRobot};
 use deictic_core::command::parcel::{Assembler, Sender, frames};
+use deictic_core::command::seal::{Guard, Heard as Taken, ON_A_BUS, ON_A_STREAM, SEALED};
+use deictic_core::protocol::seal::{KEY, Key};
 use deictic_core::slcan::{Adapter, CR, Heard, Lines, Wanted, line};
 
 use super::source::Source;
@@ -12,10 +14,105 @@ use super::source::Source;
 /// Checks one input, the first byte of which chooses how the others are used.
 pub fn run(bytes: &[u8]) {
     let mut source = Source::new(bytes);
-    match source.small(3) {
+    match source.small(4) {
         0 => packets(&mut source),
         1 => bus(&mut source),
-        _ => lines(&mut source),
+        2 => lines(&mut source),
+        _ => sealed(&mut source),
+    }
+}
+
+/// Two guards with somebody between them who loses, doubles, changes, keeps, sends back and invents: each takes nothing
+/// but what the other has said to it, in that order and once, or a halt.
+fn sealed(source: &mut Source<'_>) {
+    let tag = source.pick(&[ON_A_BUS, ON_A_STREAM]);
+    let mut between = Between::new(tag);
+    while !source.is_over() {
+        let from = source.below(2);
+        let mut line = match source.small(8) {
+            0 => vec![Packet {
+                id: source.word() as u16,
+                bytes: (0..source.small(66)).map(|_| source.byte()).collect(),
+            }],
+            1 | 2 if !between.kept.is_empty() => {
+                let first = between.kept.len().min(256);
+                vec![between.kept[source.below(first)].clone()]
+            }
+            _ => between.say(from, packet(source, SIDES[from])),
+        };
+        match source.small(8) {
+            0 => line.clear(),
+            1 => line.extend(line.clone()),
+            2 => {
+                for packet in &mut line {
+                    let at = source.below(packet.bytes.len().max(1));
+                    let change = source.byte();
+                    packet
+                        .bytes
+                        .iter_mut()
+                        .skip(at)
+                        .take(1)
+                        .for_each(|b| *b ^= change);
+                }
+            }
+            _ => {}
+        }
+        let to = if source.byte() < 16 { from } else { 1 - from };
+        for packet in line {
+            between.deliver(to, packet);
+        }
+    }
+}
+
+const SIDES: [Sender; 2] = [Sender::Host, Sender::Robot];
+
+/// Both sides, and whoever is between them.
+struct Between {
+    guards: [Guard; 2],
+    /// What each side has said.
+    said: [Vec<Packet>; 2],
+    /// How much of what the other said each side has passed.
+    passed: [usize; 2],
+    /// What was ever on the line.
+    kept: Vec<Packet>,
+}
+
+impl Between {
+    fn new(tag: usize) -> Self {
+        let key = Key::new(&[1; KEY]).expect("it has the length of a key");
+        Self {
+            guards: SIDES.map(|side| Guard::new(side, key.clone(), tag, 7)),
+            said: Default::default(),
+            passed: [0; 2],
+            kept: Vec::new(),
+        }
+    }
+
+    /// What goes over the line when this side says something.
+    fn say(&mut self, side: usize, message: Packet) -> Vec<Packet> {
+        let sealed = self.guards[side].say(&message);
+        self.said[side].push(message);
+        sealed.into_iter().collect()
+    }
+
+    fn deliver(&mut self, to: usize, packet: Packet) {
+        self.kept.push(packet.clone());
+        match self.guards[to].hear(&packet) {
+            Taken::Nothing => {}
+            // Whoever answers is answered at most once more.
+            Taken::Answer(answer) => self.deliver(1 - to, answer),
+            Taken::Message(message) => {
+                let halt = matches!(ToRobot::read(&message), Ok(ToRobot::Halt(_)));
+                if packet.id & SEALED == 0 {
+                    assert!(halt && SIDES[to] == Sender::Robot, "{message:?} in clear");
+                    return;
+                }
+                let further = self.said[1 - to].iter().skip(self.passed[to]);
+                let place = further.clone().position(|said| *said == message);
+                let place = place.unwrap_or_else(|| panic!("{message:?} was not said"));
+                self.passed[to] += place + 1;
+            }
+        }
     }
 }
 

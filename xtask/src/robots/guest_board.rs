@@ -7,6 +7,7 @@ use std::process::{Child, Command, Stdio};
 use anyhow::{Context, Result};
 
 use super::played::{Bridge, Row, rows_in};
+use crate::cmd::key;
 use crate::guest::{self, INTERFACE};
 use crate::qemu::{self, Link};
 
@@ -47,9 +48,11 @@ pub fn play(bridge: &Bridge) -> Result<Vec<Row>> {
         None => "inside",
     };
     let robot = format!("can:{INTERFACE}");
-    let far = bridge.line(&format!("robot-sim --listen {robot}"));
+    let key = key::for_trials()?;
+    let key = key.display();
+    let far = bridge.line(&format!("robot-sim --listen {robot} --key '{key}'"));
     // Nobody else reaches the pseudo-terminal.
-    let trust = "--insecure-robot";
+    let trust = format!("--robot-key '{key}' --insecure-robot");
     let near = bridge.line(&format!("play --robot {robot} --board {unit} {trust}"));
     let lines = format!("{far} >/dev/null 2>&1 &\n{near}");
     rows_in(&guest::run(&lines, terminal, PATIENCE)?)

@@ -1,4 +1,4 @@
-//! The demo on a robot behind each of the links that there are, side by side in one table.
+//! The demo on a robot behind each of the links that there are, side by side in one table. What can be sealed is.
 
 mod franka_sim;
 mod guest_board;
@@ -9,6 +9,7 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 
+use crate::cmd::key;
 use crate::guest::{self, INTERFACE};
 use crate::process;
 
@@ -68,16 +69,17 @@ pub struct Column {
 /// Plays the demo over a link; an error when it fails, a reason where this machine cannot try it.
 fn play(bridge: &Bridge, link: Link) -> Result<Column> {
     let played = match link {
-        Link::Inside => Ok(bridge.play("sim")?),
+        Link::Inside => Ok(bridge.play("sim", None)?),
         Link::Listening(at) => {
-            let (_far, address) = played::Far::listening(bridge, at)?;
-            Ok(bridge.play(&address)?)
+            let key = key::for_trials()?;
+            let (_far, address) = played::Far::listening(bridge, at, &key)?;
+            Ok(bridge.play(&address, Some(&key))?)
         }
         Link::Can if !guest::is_possible() => Err(guest::MISSING.to_owned()),
         Link::Can if guest::has_can() => {
-            let at = format!("can:{INTERFACE}");
-            let (_far, address) = played::Far::listening(bridge, &at)?;
-            Ok(bridge.play(&address)?)
+            let (at, key) = (format!("can:{INTERFACE}"), key::for_trials()?);
+            let (_far, address) = played::Far::listening(bridge, &at, &key)?;
+            Ok(bridge.play(&address, Some(&key))?)
         }
         Link::Can => Ok(guest_board::play(bridge)?),
         Link::Fci => fci(bridge)?,
@@ -122,7 +124,7 @@ pub fn play_in_namespace(place: &Path, image: &Path) -> Result<()> {
     let image = image.is_file().then(|| image.to_owned());
     let bridge = Bridge::built(image)?;
     let _simulator = franka_sim::start(place)?;
-    let rows = bridge.play("fci:127.0.0.1,no-realtime")?;
+    let rows = bridge.play("fci:127.0.0.1,no-realtime", None)?;
     println!("{}", serde_json::to_string(&rows)?);
     Ok(())
 }

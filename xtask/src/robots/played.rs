@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result};
@@ -88,14 +88,17 @@ impl Bridge {
         format!("'{program}' {arguments} --haste {HASTE} --json")
     }
 
-    /// Plays the demo on a robot.
-    pub fn play(&self, robot: &str) -> Result<Vec<Row>> {
+    /// Plays the demo on a robot, with its key where it has one.
+    pub fn play(&self, robot: &str, key: Option<&Path>) -> Result<Vec<Row>> {
         let board = if self.image.is_some() {
             "qemu"
         } else {
             "inside"
         };
         let mut command = self.command(&["play", "--robot", robot, "--board", board]);
+        if let Some(key) = key {
+            command.arg("--robot-key").arg(key);
+        }
         let image = self.image.iter().map(OsString::from);
         command.envs(image.map(|image| (Board::Mps2An386.image_variable(), image)));
         let output = command.stderr(Stdio::inherit()).output()?;
@@ -111,13 +114,14 @@ const HASTE: &str = "4";
 pub struct Far(Child);
 
 impl Far {
-    /// One that listens there; gives where it is found as well.
-    pub fn listening(bridge: &Bridge, at: &str) -> Result<(Self, String)> {
+    /// One that listens there to who has this key; gives where it is found as well.
+    pub fn listening(bridge: &Bridge, at: &str, key: &Path) -> Result<(Self, String)> {
         #[derive(Deserialize)]
         struct Told {
             address: String,
         }
         let mut command = bridge.command(&["robot-sim", "--listen", at]);
+        command.arg("--key").arg(key);
         let mut far = Self(command.stdout(Stdio::piped()).spawn()?);
         let mut line = String::new();
         let output = far.0.stdout.take().context("it has no output")?;

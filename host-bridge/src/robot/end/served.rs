@@ -4,12 +4,15 @@ use std::io::{self, ErrorKind};
 use std::net::{IpAddr, TcpListener};
 use std::time::{Duration, Instant};
 
+use deictic_core::command::Packet;
 use deictic_core::command::parcel::Sender;
+use deictic_core::command::seal::{Heard, ON_A_BUS, ON_A_STREAM};
+use deictic_core::protocol::seal::Key;
 use deictic_core::time::Micros;
 
 use super::End;
 use crate::link::{self, Line, Pair, Wire, WireError, bus};
-use crate::robot::remote::{Carrier, OnBus, OnWire};
+use crate::robot::remote::{Carrier, Gate, OnBus, OnWire};
 use crate::robot::way::Way;
 
 /// How long to wait before a link that cannot be opened is tried again.
@@ -100,6 +103,15 @@ impl Listener {
         }
     }
 
+    /// How long the tags on its links are.
+    fn tag(&self) -> usize {
+        match self {
+            Self::At(way) => way.tag(),
+            Self::Pair { adapter, .. } | Self::Port { adapter, .. } if *adapter => ON_A_BUS,
+            Self::Pair { .. } | Self::Port { .. } => ON_A_STREAM,
+        }
+    }
+
     /// A link to a host; `None` when none has come.
     fn accept(&self) -> io::Result<Option<Box<dyn Carrier>>> {
         let opened = match self {
@@ -140,6 +152,7 @@ pub struct Served {
     end: End,
     listener: Listener,
     carrier: Option<Box<dyn Carrier>>,
+    gate: Gate,
     began: Instant,
     again: Instant,
 }
@@ -153,9 +166,25 @@ impl Served {
             end,
             listener,
             carrier: None,
+            gate: Gate::default(),
             began: now,
             again: now,
         }
+    }
+
+    /// Listens only to a host that has this key, but for a halt.
+    ///
+    /// # Errors
+    /// When this machine has no random numbers.
+    pub fn with_key(mut self, key: &Key) -> io::Result<Self> {
+        self.gate = Gate::new(Sender::Robot, Some(key), self.listener.tag())?;
+        Ok(self)
+    }
+
+    /// What stands between the robot and its links.
+    #[must_use]
+    pub fn gate(&self) -> &Gate {
+        &self.gate
     }
 
     /// The robot's side.
@@ -180,16 +209,18 @@ impl Served {
                 } else {
                     Duration::ZERO
                 };
+                let (end, gate) = (&mut self.end, &mut self.gate);
                 let mut talk = || {
-                    for packet in out.drain(..) {
-                        carrier.send(&packet)?;
-                    }
+                    say(carrier, gate, &mut out)?;
                     while let Some(packet) = carrier.receive(wait)? {
-                        let now = micros(self.began);
-                        self.end.take(now, &packet, &mut out);
-                        for packet in out.drain(..) {
-                            carrier.send(&packet)?;
+                        match gate.hear(packet) {
+                            Heard::Message(packet) => {
+                                end.take(micros(self.began), &packet, &mut out)
+                            }
+                            Heard::Answer(packet) => carrier.send(&packet)?,
+                            Heard::Nothing => {}
                         }
+                        say(carrier, gate, &mut out)?;
                         wait = Duration::ZERO;
                     }
                     Ok(())
@@ -221,6 +252,11 @@ impl Served {
     fn now(&self) -> Micros {
         micros(self.began)
     }
+}
+
+fn say(carrier: &mut Box<dyn Carrier>, gate: &mut Gate, out: &mut Vec<Packet>) -> io::Result<()> {
+    let mut said = out.drain(..).flat_map(|packet| gate.say(&packet));
+    said.try_for_each(|packet| carrier.send(&packet))
 }
 
 fn micros(began: Instant) -> Micros {

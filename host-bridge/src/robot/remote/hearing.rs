@@ -36,6 +36,8 @@ impl Remote {
                 }
             }
             FromRobot::Welcome(_) => {}
+            // Where this side has a key, its gate has answered.
+            FromRobot::Challenge(_) => self.wants_key = true,
             // It lives, but hears another bridge.
             FromRobot::RobotBeat(beat) if beat.run_low != self.run as u16 => {}
             FromRobot::RobotBeat(beat) => {

@@ -4,6 +4,7 @@ use std::io;
 use std::time::Duration;
 
 use deictic_core::command::message::{Ask, FromRobot, Halt, HostBeat, ToRobot};
+use deictic_core::command::seal::Heard;
 use deictic_core::command::{BEAT, Packet};
 use deictic_core::time::Micros;
 
@@ -32,6 +33,13 @@ impl Remote {
     }
 
     pub(super) fn send(&mut self, packet: &Packet) {
+        for packet in self.gate.say(packet) {
+            self.carry(&packet);
+        }
+    }
+
+    /// Gives a packet to the link as it is.
+    fn carry(&mut self, packet: &Packet) {
         if let Some(carrier) = &mut self.carrier
             && let Err(error) = carrier.send(packet)
         {
@@ -49,12 +57,16 @@ impl Remote {
         let mut patience = patience;
         while let Some(carrier) = &mut self.carrier {
             match carrier.receive(patience) {
-                Ok(Some(packet)) => {
-                    // What is no message of ours is as good as lost.
-                    if let Ok(message) = FromRobot::read(&packet) {
-                        self.hear(now, &message);
+                Ok(Some(packet)) => match self.gate.hear(packet) {
+                    Heard::Message(packet) => {
+                        // What is no message of ours is as good as lost.
+                        if let Ok(message) = FromRobot::read(&packet) {
+                            self.hear(now, &message);
+                        }
                     }
-                }
+                    Heard::Answer(packet) => self.carry(&packet),
+                    Heard::Nothing => {}
+                },
                 Ok(None) => return,
                 Err(error) => self.lose(&error),
             }

@@ -5,6 +5,7 @@
 //! robot was lost, counts as failed, and is voided before the robot takes another.
 
 mod carrier;
+mod gate;
 mod giving;
 mod hearing;
 mod link;
@@ -25,6 +26,7 @@ use crate::scene::Change;
 use crate::vocabulary::Lexicon;
 
 pub use carrier::{Carrier, OnBus, OnWire};
+pub use gate::Gate;
 pub(super) use words::{action_of, direction_option, reason_of, thing_named};
 
 /// When an unanswered command is given again.
@@ -59,6 +61,9 @@ struct Given {
 pub struct Remote {
     open: Opener,
     carrier: Option<Box<dyn Carrier>>,
+    gate: Gate,
+    /// Whether the robot has asked for a key that this side does not have.
+    wants_key: bool,
     /// Why it was lost last.
     gone: String,
     lexicon: Lexicon,
@@ -86,11 +91,21 @@ impl Remote {
     ///
     /// # Errors
     /// When the link cannot be opened.
-    pub fn open(mut open: Opener, lexicon: &Lexicon) -> io::Result<Self> {
+    pub fn open(open: Opener, lexicon: &Lexicon) -> io::Result<Self> {
+        Self::behind(Gate::default(), open, lexicon)
+    }
+
+    /// As [`Remote::open`], behind a gate.
+    ///
+    /// # Errors
+    /// When the link cannot be opened.
+    pub fn behind(gate: Gate, mut open: Opener, lexicon: &Lexicon) -> io::Result<Self> {
         let carrier = Some(open()?);
         let mut remote = Self {
             open,
             carrier,
+            gate,
+            wants_key: false,
             gone: String::new(),
             lexicon: lexicon.clone(),
             run: fresh_run(),
@@ -123,6 +138,18 @@ impl Remote {
     #[must_use]
     pub fn lost(&self) -> u64 {
         self.carrier.as_ref().map_or(0, |c| c.lost())
+    }
+
+    /// What stands between this side and the link.
+    #[must_use]
+    pub fn gate(&self) -> &Gate {
+        &self.gate
+    }
+
+    /// Whether the robot has asked for a key that this side does not have.
+    #[must_use]
+    pub fn wants_key(&self) -> bool {
+        self.wants_key
     }
 
     /// Waits until the robot shows that it lives.
