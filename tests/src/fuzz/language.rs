@@ -15,6 +15,10 @@ const WORDS: &str = "put pick push pour stack unglue release move up stop the a 
     crackers bowl left right down 5 10 0.5 -3 cm mm m degrees twice one two all everything left's kan kup pich cann \
     actually instead wait who what where is are was said tell me you 1e9 999999999999 nan ½ Ž";
 
+/// How long a text of such words is at most: a dozen of them are as many as a clause has, and every one is compared with
+/// all that the vocabulary knows.
+const LONGEST: usize = 100;
+
 thread_local! {
     static LISTENER: OnceCell<Listener<'static>> = const { OnceCell::new() };
 }
@@ -25,7 +29,7 @@ pub fn run(bytes: &[u8]) {
     let text = if source.flag() {
         let words: Vec<&str> = WORDS.split_whitespace().collect();
         let mut text = String::new();
-        while !source.is_over() && text.len() < 400 {
+        while !source.is_over() && text.len() < LONGEST {
             text.push_str(words[source.below(words.len())]);
             if source.byte() < 250 {
                 text.push(' ');
@@ -46,10 +50,10 @@ pub fn run(bytes: &[u8]) {
 
 fn check(listener: &Listener<'_>, text: &str) {
     let understood = listener.understand(text);
-    assert_eq!(
-        format!("{understood:?}"),
-        format!("{:?}", listener.understand(text))
-    );
+    // That it is understood alike every time is asked of some texts only, as it takes as long again.
+    if text.len().is_multiple_of(8) {
+        assert_eq!(understood, listener.understand(text));
+    }
     match understood {
         Ok(utterance) => {
             for command in &utterance.commands {
