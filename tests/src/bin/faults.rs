@@ -1,4 +1,5 @@
-//! `faults SESSIONS FRAMES [SEED]`: many sessions under faults and many damaged frames, and what came of them.
+//! `faults SESSIONS FRAMES [SEED]`: many sessions under faults and many damaged frames, every second one sealed, and what
+//! came of them.
 
 use std::collections::BTreeMap;
 use std::time::Instant;

@@ -3,8 +3,10 @@
 use deictic_bits::random::Random;
 use deictic_core::board;
 use deictic_core::decide::{Decision, Outcome};
-use deictic_core::large::{Link, ToHost};
+use deictic_core::large::{self, ToHost};
+use deictic_core::protocol::link::Link;
 use deictic_core::protocol::message::{Decided, Heartbeat, Hello, Loaded, ToHost as Said};
+use deictic_core::protocol::seal::{KEY, Key, Nonces, Way};
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::protocol::{SCHEMA, VERSION};
 use deictic_core::time::Micros;
@@ -22,8 +24,21 @@ pub struct Report {
     pub accepted: u64,
 }
 
-/// Sends so many frames of all kinds, each damaged: one to eight bits flipped, up to 32 bits in a row made random, or
-/// cut short.
+/// A link as it is after both ends have shown to have a key.
+fn sealed<const FRAME: usize>(way: Way) -> Link<FRAME> {
+    let mut link = Link::new();
+    if let Some(key) = Key::new(&[7; KEY]) {
+        link.lock(key, way);
+        link.seal(Nonces { unit: 1, host: 2 });
+    }
+    link
+}
+
+/// Sends so many frames of all kinds, every second one sealed, each damaged: one to eight bits flipped, up to 32 bits in
+/// a row made random, or cut short.
+///
+/// # Panics
+/// When a frame that is not damaged is not taken.
 #[must_use]
 pub fn damaged_frames(frames: u64, seed: u64) -> Report {
     let mut random = Random::new(seed);
@@ -31,10 +46,14 @@ pub fn damaged_frames(frames: u64, seed: u64) -> Report {
         frames,
         ..Report::default()
     };
-    let mut mouth = board::Link::new();
-    for _ in 0..frames {
+    for i in 0..frames {
+        let (mut mouth, mut ear) = match i % 2 {
+            0 => (board::Link::new(), large::Link::new()),
+            _ => (sealed(Way::ToHost), sealed(Way::ToUnit)),
+        };
         let mut out = Outbox::<512>::new();
-        assert!(mouth.send(&message(&mut random), &mut out));
+        let message = message(&mut random);
+        assert!(mouth.send(&message, &mut out));
         let sound = out.waiting().to_vec();
         let mut frame = sound.clone();
         match random.below(3) {
@@ -45,17 +64,19 @@ pub fn damaged_frames(frames: u64, seed: u64) -> Report {
                 frame.push(0);
             }
         }
-        if frame == sound {
-            report.intact += 1;
-            continue;
-        }
-        // An ear that takes any number, at the beginning of a frame, and a zero behind that ends what is left.
-        let mut ear = Link::new();
+        // A zero behind it ends what is left.
+        let intact = frame == sound;
         frame.push(0);
         let taken = frame
             .iter()
             .filter(|byte| ear.receive::<ToHost>(**byte).is_some());
-        report.accepted += taken.count() as u64;
+        let taken = taken.count() as u64;
+        if intact {
+            report.intact += 1;
+            assert_eq!(taken, 1, "it is as it was sent, and not taken");
+        } else {
+            report.accepted += taken;
+        }
     }
     report
 }

@@ -4,6 +4,7 @@
 
 pub mod around;
 pub mod damage;
+mod ear;
 pub mod line;
 pub mod setting;
 pub mod trial;

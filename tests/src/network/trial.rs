@@ -11,6 +11,7 @@ use deictic_bits::random::Random;
 use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
 use deictic_core::protocol::message::Configuration;
+use deictic_core::protocol::seal::{KEY, Key};
 use deictic_core::sentence::LANGUAGE;
 use deictic_core::time::Micros;
 
@@ -66,7 +67,7 @@ const TURN: Duration = Duration::from_millis(20);
 /// How long a command may take until it must have ended, whatever the faults.
 const PATIENCE: Micros = Micros::from_millis(120_000);
 
-/// Runs the session of this seed.
+/// Runs the session of this seed; unit and bridge have a key when it is odd.
 ///
 /// # Panics
 /// When something does not hold.
@@ -74,7 +75,8 @@ const PATIENCE: Micros = Micros::from_millis(120_000);
 pub fn run(setting: &Setting, seed: u64) -> Account {
     let clock = Simulated::start();
     let mut random = Random::new(seed);
-    let world = World::new(random.next());
+    let key = Key::new(&[7; KEY]).filter(|_| !seed.is_multiple_of(2));
+    let world = World::keyed(random.next(), key);
     let explain = random.one_in(4);
     let mut trial =
         Trial::open(setting, world, random.next(), explain).expect("nothing is wrong yet");

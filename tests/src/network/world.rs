@@ -10,9 +10,11 @@ use deictic::link::Wire;
 use deictic_core::board::Unit;
 use deictic_core::decide::Outcome;
 use deictic_core::large::{Intent, Link, ToHost};
+use deictic_core::protocol::seal::Key;
 use deictic_core::time::Micros;
 
 use super::around::Around;
+use super::ear::Ear;
 use super::line::{Faults, Line};
 
 /// An execution that a unit has told.
@@ -42,7 +44,9 @@ pub struct Inside {
     pub to_unit: Line,
     /// What comes from it.
     pub to_host: Line,
-    ear: Box<Link>,
+    ear: Ear,
+    /// The key of unit and host, where they have one.
+    key: Option<Key>,
     /// What each start of the unit has told, by the number of the decision.
     pub told: BTreeMap<(u32, u32), Told>,
     /// When a whole frame last came to the host.
@@ -60,12 +64,27 @@ pub struct World {
     began: Instant,
 }
 
+/// A unit that starts, with its key.
+fn start(boot: u32, key: Option<&Key>) -> Box<Unit> {
+    let mut unit = Box::new(Unit::new(boot));
+    if let Some(key) = key {
+        unit.lock(key.clone());
+    }
+    unit
+}
+
 impl World {
     /// A unit that has just started, and a good line.
     #[must_use]
     pub fn new(seed: u64) -> Self {
+        Self::keyed(seed, None)
+    }
+
+    /// The same; unit and host have this key.
+    #[must_use]
+    pub fn keyed(seed: u64, key: Option<Key>) -> Self {
         let inside = Inside {
-            unit: Box::new(Unit::new(1)),
+            unit: start(1, key.as_ref()),
             boots: 1,
             ahead: Micros(0),
             frozen: Micros(0),
@@ -74,7 +93,8 @@ impl World {
             width: usize::MAX,
             to_unit: Line::new(seed ^ 1, Faults::NONE),
             to_host: Line::new(seed ^ 2, Faults::NONE),
-            ear: Box::default(),
+            ear: Ear::default(),
+            key,
             told: BTreeMap::new(),
             heard: Micros(0),
             host_ear: Box::default(),
@@ -131,8 +151,7 @@ impl Around for World {
     fn restart(&self) {
         let mut inside = self.inside();
         inside.boots += 1;
-        let boot = inside.boots;
-        *inside.unit = Unit::new(boot);
+        inside.unit = start(inside.boots, inside.key.as_ref());
         inside.ahead = Micros(0);
         inside.to_unit.break_after(0);
     }
@@ -235,8 +254,7 @@ impl Inside {
     /// Remembers what the unit tells to be done.
     fn note(&mut self, bytes: &[u8]) {
         for &byte in bytes {
-            if let Some(received) = self.ear.receive::<ToHost>(byte)
-                && let ToHost::Decision(decided) = received.message
+            if let Some(ToHost::Decision(decided)) = self.ear.hear(byte)
                 && let Outcome::Execute(intent) = decided.decision.outcome
             {
                 let scene = decided.scene;
@@ -253,6 +271,10 @@ impl Inside {
 }
 
 impl Wire for World {
+    fn key(&self) -> Option<Key> {
+        self.inside().key.clone()
+    }
+
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let now = self.now();
         let mut inside = self.inside();
