@@ -1,6 +1,6 @@
 //! The boards and how their images are built.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
 use anyhow::{Context, Result, bail};
@@ -42,7 +42,12 @@ impl Board {
 
 /// Builds the unit's release image for a board and says where it is.
 pub fn build(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
-    build_image(toolchain, board.name(), board.name())
+    build_image(toolchain, board.name(), board.name(), None)
+}
+
+/// Builds the unit's release image with a key, and says where it is: beside the plain one.
+pub fn build_keyed(toolchain: &Toolchain, board: Board, key: &Path) -> Result<PathBuf> {
+    build_beside(toolchain, board, (board.name(), "keyed"), Some(key))
 }
 
 /// Builds the unit's release image whose host link is a CAN bus, and says where it is: beside the other one.
@@ -50,12 +55,24 @@ pub fn build_on_can(toolchain: &Toolchain, board: Board) -> Result<PathBuf> {
     build_variant(toolchain, board, "can")
 }
 
-/// Builds an image with one more feature, and says where it is: beside the plain one, which is built after it, as cargo
-/// puts both at the same place and that is where everyone looks for the plain one.
+/// Builds an image with one more feature, and says where it is: beside the plain one.
 fn build_variant(toolchain: &Toolchain, board: Board, feature: &str) -> Result<PathBuf> {
+    let features = format!("{},{feature}", board.name());
+    build_beside(toolchain, board, (&features, feature), None)
+}
+
+/// Builds an image with these features, or this key, and says where it is: beside the plain one under its name and that
+/// of the variant. The plain one is built after it, as cargo puts both at the same place and that is where everyone
+/// looks for the plain one.
+fn build_beside(
+    toolchain: &Toolchain,
+    board: Board,
+    (features, variant): (&str, &str),
+    key: Option<&Path>,
+) -> Result<PathBuf> {
     let name = board.name();
-    let built = build_image(toolchain, &format!("{name},{feature}"), name)?;
-    let kept = built.with_file_name(format!("{name}-{feature}"));
+    let built = build_image(toolchain, features, name, key)?;
+    let kept = built.with_file_name(format!("{name}-{variant}"));
     std::fs::copy(&built, &kept).with_context(|| format!("cannot write {}", kept.display()))?;
     build(toolchain, board)?;
     Ok(kept)
@@ -68,13 +85,13 @@ pub fn build_hasty(toolchain: &Toolchain) -> Result<PathBuf> {
 
 /// Builds one of the images that try the board in QEMU: `bench`, `bits` or `faults`.
 pub fn build_trial(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
-    build_image(toolchain, "bench", name)
+    build_image(toolchain, "bench", name, None)
 }
 
 /// Whether the image that calls all of the core links, holds no formatting, and does not link any more once an index that can
 /// panic is added.
 pub fn check_interface(toolchain: &Toolchain) -> Result<()> {
-    let image = build_image(toolchain, "interface", "interface")?;
+    let image = build_image(toolchain, "interface", "interface", None)?;
     let bytes = std::fs::read(&image)?;
     let file = object::File::parse(&*bytes)?;
     let formats: Vec<String> = file
@@ -99,8 +116,18 @@ pub fn check_interface(toolchain: &Toolchain) -> Result<()> {
     Ok(())
 }
 
-fn build_image(toolchain: &Toolchain, feature: &str, image: &str) -> Result<PathBuf> {
+fn build_image(
+    toolchain: &Toolchain,
+    feature: &str,
+    image: &str,
+    key: Option<&Path>,
+) -> Result<PathBuf> {
     let mut cargo = toolchain.firmware_cargo("build");
+    match key {
+        Some(key) => cargo.env("DEICTIC_KEY", key),
+        // What is meant for a board on the desk is not for those that are tried here.
+        None => cargo.env_remove("DEICTIC_KEY"),
+    };
     cargo.args(["--release", "--features", feature, "--bin", image]);
     cargo.arg("--message-format=json-render-diagnostics");
     let output = cargo

@@ -1,4 +1,4 @@
-//! What a decision and the dearest frame of a hand cost on the board: instructions (in QEMU with `-icount shift=10`) and
+//! What a decision, the dearest frame of a hand and a frame of the host link cost on the board: instructions (in QEMU with `-icount shift=10`) and
 //! stack. `cargo xtask budget` reads the lines `instructions NAME COUNT` and `stack NAME BYTES`.
 #![no_std]
 #![no_main]
@@ -9,7 +9,12 @@ use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hprintln};
 use deictic_bits::Bench;
 use deictic_bits::hand::{HandBench, SESSIONS};
+use deictic_core::board::{Link, ToUnit};
 use deictic_core::profile::{Model, Profile};
+use deictic_core::protocol::message::Heartbeat;
+use deictic_core::protocol::seal::{KEY, Key, Nonces, Way};
+use deictic_core::protocol::stuffing::Outbox;
+use deictic_core::time::Micros;
 use deictic_firmware::mps2_an386::measure::{Counter, stack_used};
 
 /// Models with the paper's other choices.
@@ -19,6 +24,7 @@ const MODELS: [(&str, Model); 3] = [("m1", Model::M1), ("m2", Model::M2), ("m3",
 fn main() -> ! {
     static mut BENCH: Bench = Bench::new();
     static mut HAND: HandBench = HandBench::new();
+    static mut ENDS: [Link; 2] = [Link::new(), Link::new()];
     if let Some(core) = cortex_m::Peripherals::take() {
         let mut counter = Counter::new(core.SYST);
         BENCH.m3_case();
@@ -39,6 +45,11 @@ fn main() -> ! {
             );
         }
         measure("joint", &Profile::JOINT);
+        for (name, key) in [("", None), ("-sealed", Key::new(black_box(&[7; KEY])))] {
+            let [say, hear] = frame(ENDS, key, &mut counter);
+            hprintln!("instructions say{} {}", name, say);
+            hprintln!("instructions hear{} {}", name, hear);
+        }
         HAND.prepare();
         hprintln!("instructions hand {}", worst_frame(HAND, &mut counter));
         debug::exit(debug::EXIT_SUCCESS);
@@ -70,4 +81,31 @@ fn worst_frame(bench: &mut HandBench, counter: &mut Counter) -> u32 {
         }
     }
     worst
+}
+
+/// What a frame with the contents of a heartbeat costs its sender and its receiver, sealed where there is a key.
+fn frame(ends: &mut [Link; 2], key: Option<Key>, counter: &mut Counter) -> [u32; 2] {
+    let [unit, host] = ends;
+    if let Some(key) = key {
+        let nonces = Nonces { unit: 1, host: 2 };
+        unit.lock(key.clone(), Way::ToHost);
+        host.lock(key, Way::ToUnit);
+        unit.seal(nonces);
+        host.seal(nonces);
+    }
+    let beat = ToUnit::Heartbeat(Heartbeat {
+        now: Micros(1_234_567_890),
+        vocabulary: 0xdead_beef,
+        scene: 1_000,
+    });
+    let mut out = Outbox::<128>::new();
+    let say = counter.instructions(|| host.send(black_box(&beat), &mut out));
+    let mut taken = false;
+    let hear = counter.instructions(|| {
+        for byte in out.waiting() {
+            taken |= unit.receive::<ToUnit>(*byte).is_some();
+        }
+    });
+    // A frame that is not taken costs as much as none.
+    [say, if taken { hear } else { 0 }]
 }

@@ -18,6 +18,9 @@ pub struct Figures {
     pub ram_bytes: u64,
     /// Most bytes of stack.
     pub stack_bytes: u64,
+    /// Bytes in flash that the seal of frames takes, those that are part of other functions not among them.
+    #[serde(default)]
+    pub seal_flash_bytes: u64,
     /// Instructions of an operation, by its name.
     pub instructions: BTreeMap<String, u64>,
 }
@@ -29,6 +32,7 @@ impl Figures {
             flash_bytes: 128 * 1024,
             ram_bytes: 24 * 1024,
             stack_bytes: 4 * 1024,
+            seal_flash_bytes: 4 * 1024,
             instructions: BTreeMap::from([("hand".to_owned(), 60_000), ("m3".to_owned(), 12_000)]),
         }
     }
@@ -39,6 +43,7 @@ impl Figures {
             ("flash_bytes".to_owned(), self.flash_bytes),
             ("ram_bytes".to_owned(), self.ram_bytes),
             ("stack_bytes".to_owned(), self.stack_bytes),
+            ("seal_flash_bytes".to_owned(), self.seal_flash_bytes),
         ]
         .into_iter()
         .chain(

@@ -105,6 +105,13 @@ impl Image {
         Ok(image)
     }
 
+    /// Bytes of the functions whose names contain one of these.
+    pub fn bytes_of(&self, names: &[&str]) -> u64 {
+        let named = |f: &&Function| names.iter().any(|name| f.name.contains(name));
+        let found = self.functions.iter().filter(|(_, f)| named(f));
+        found.map(|(start, f)| u64::from(f.end - start)).sum()
+    }
+
     /// Hand-written assembly may not say how long it is: it lasts until the next function.
     fn close_open_functions(&mut self) {
         let mut next = self.text.0 + u32::try_from(self.text.1.len()).unwrap_or(0);

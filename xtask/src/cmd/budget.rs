@@ -9,8 +9,8 @@ use crate::budget::{self, Figures, Golden, Image, WorstCase};
 use crate::cmd::setup;
 use crate::toolchain::Toolchain;
 
-/// Measure the unit's image against its golden figures: flash, RAM, worst-case stack, instructions of a decision and of
-/// the dearest frame of a hand.
+/// Measure the unit's image against its golden figures: flash, RAM, worst-case stack, instructions of a decision, of the
+/// dearest frame of a hand, and of saying and hearing a frame, sealed and not.
 ///
 /// Fails when a figure is above its golden one (tests/expected/budget-BOARD-COMPILER.json) or above what the project
 /// promises. Instructions are counted in QEMU, where 1 takes 1024 ns of the board's time; the rest is read from the
@@ -43,6 +43,14 @@ struct Report {
     golden: Option<Figures>,
     limits: Figures,
 }
+
+/// What the names of the seal's functions contain.
+const SEAL: [&str; 4] = [
+    "hmac::",
+    "sha2::",
+    "protocol::seal::",
+    "protocol::link::opened",
+];
 
 /// What the stack's figure rests on besides the machine code.
 const ASSUMPTIONS: &[&str] = &[
@@ -93,6 +101,7 @@ impl Report {
                 flash_bytes: image.flash_bytes,
                 ram_bytes: image.ram_bytes,
                 stack_bytes: u64::from(stack.bytes),
+                seal_flash_bytes: image.bytes_of(&SEAL),
                 instructions,
             },
             stack,

@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use anyhow::Result;
 use clap::Args;
 
@@ -10,6 +12,9 @@ pub struct Firmware {
     /// Only this board's
     #[arg(long)]
     board: Option<Board>,
+    /// With this key (`cargo xtask key` makes one), beside the plain ones
+    #[arg(long, value_name = "FILE")]
+    key: Option<PathBuf>,
 }
 
 impl Firmware {
@@ -17,7 +22,11 @@ impl Firmware {
         let toolchain = setup::ensure()?;
         for board in Board::ALL {
             if self.board.is_none_or(|only| only == board) {
-                println!("{}", board::build(&toolchain, board)?.display());
+                let image = match &self.key {
+                    None => board::build(&toolchain, board)?,
+                    Some(key) => board::build_keyed(&toolchain, board, &key.canonicalize()?)?,
+                };
+                println!("{}", image.display());
             }
         }
         Ok(())

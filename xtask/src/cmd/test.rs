@@ -5,7 +5,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::board::{self, Board};
-use crate::cmd::{budget::Budget, can::Can, growth::Growth, setup};
+use crate::cmd::{budget::Budget, can::Can, growth::Growth, key, setup};
 use crate::guest;
 use crate::process::{self, cargo};
 use crate::qemu::{self, Link};
@@ -39,6 +39,11 @@ impl Test {
             eprintln!("{}", image.display());
             tests.env(board.image_variable(), image);
         }
+        step("image with a key");
+        let key = key::for_trials()?;
+        let keyed = board::build_keyed(&toolchain, Board::Mps2An386, &key)?;
+        tests.env("DEICTIC_IMAGE_MPS2_AN386_KEYED", keyed);
+        tests.env("DEICTIC_IMAGE_KEY", key);
         step("image in a hurry");
         tests.env("DEICTIC_IMAGE_HASTY", board::build_hasty(&toolchain)?);
         match python() {
