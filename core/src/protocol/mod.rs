@@ -9,6 +9,7 @@
 //! * [`link`]: one end of a link: sequence numbers and a counter for every kind of lost frame.
 //! * [`seal`]: with a key, a tag on every frame.
 
+mod counters;
 pub mod hand;
 pub mod link;
 pub mod message;

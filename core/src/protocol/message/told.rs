@@ -1,0 +1,75 @@
+//! What a unit tells of its decisions and of itself.
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use crate::category::Category;
+use crate::decide::Decision;
+use crate::protocol::link::Counters;
+
+/// A decision and what it was made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decided<const C: usize> {
+    /// Its number, counted from 1 at every start of the unit.
+    pub number: u32,
+    /// The fingerprint of the vocabulary it speaks.
+    pub vocabulary: u32,
+    /// The version of the scene it was made on.
+    pub scene: u32,
+    /// The modalities it draws on, one bit each.
+    pub modalities: u8,
+    /// How many more questions may be asked about the command after this one, if it is one; of models
+    /// that do not count them as many as the profile has.
+    pub questions_left: u8,
+    /// What to do now.
+    pub decision: Decision<C>,
+}
+
+/// Why a decision came out as it did: one category ([`crate::trace::CategoryTrace`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Why<const N: usize> {
+    /// The decision's number.
+    pub number: u32,
+    /// The category.
+    pub category: Category,
+    /// Probability that it is in the merged sentence.
+    pub present: f32,
+    /// The merged word; for actions after alpha and beta.
+    pub merged: Vec<f32, N>,
+    /// Its diagonal cross-entropy.
+    pub h: Vec<f32, N>,
+    /// Its normalised entropy.
+    pub entropy: f32,
+    /// Against what clarity was judged.
+    pub threshold: f32,
+    /// Which options are clear, one bit each.
+    pub clear: u64,
+}
+
+/// Why a decision came out as it did: the actions' penalties.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WhyActions<const N: usize> {
+    /// The decision's number.
+    pub number: u32,
+    /// The merged action word before any penalty.
+    pub heard: Vec<f32, N>,
+    /// alpha of every action.
+    pub alpha: Vec<f32, N>,
+    /// beta of every action.
+    pub beta: Vec<f32, N>,
+}
+
+/// What a unit has counted since it started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// What has become of frames.
+    pub link: Counters,
+    /// Decisions to execute.
+    pub executes: u32,
+    /// Decisions to ask.
+    pub asks: u32,
+    /// Decisions to ask for a repetition.
+    pub repeats: u32,
+    /// Faults that were told.
+    pub faults: u32,
+}
