@@ -9,7 +9,7 @@ use deictic::clock;
 use deictic::link::Wire;
 use deictic_core::board::Unit;
 use deictic_core::decide::Outcome;
-use deictic_core::large::{Intent, Link, ToHost};
+use deictic_core::large::{Intent, ToHost};
 use deictic_core::protocol::seal::Key;
 use deictic_core::time::Micros;
 
@@ -49,10 +49,10 @@ pub struct Inside {
     key: Option<Key>,
     /// What each start of the unit has told, by the number of the decision.
     pub told: BTreeMap<(u32, u32), Told>,
-    /// When a whole frame last came to the host.
+    /// When a frame that the host can take last came to it.
     pub heard: Micros,
     /// Reads what comes to the host, as the bridge does.
-    host_ear: Box<Link>,
+    host_ear: Ear,
     /// The last execution whose frame came to the host, and when it did.
     pub arrived: Option<(Micros, Intent)>,
 }
@@ -97,7 +97,7 @@ impl World {
             key,
             told: BTreeMap::new(),
             heard: Micros(0),
-            host_ear: Box::default(),
+            host_ear: Ear::default(),
             arrived: None,
         };
         Self {
@@ -239,11 +239,14 @@ impl Inside {
         self.now = self.now.max(until);
     }
 
-    /// Notes the executions among what comes to the host.
+    /// Notes when something whole comes to the host, and the executions among it.
     fn listen(&mut self, now: Micros, bytes: &[u8]) {
         for &byte in bytes {
-            if let Some(received) = self.host_ear.receive::<ToHost>(byte)
-                && let ToHost::Decision(decided) = received.message
+            let Some(message) = self.host_ear.hear(byte) else {
+                continue;
+            };
+            self.heard = now;
+            if let ToHost::Decision(decided) = message
                 && let Outcome::Execute(intent) = decided.decision.outcome
             {
                 self.arrived = Some((now, intent));
@@ -293,9 +296,6 @@ impl Wire for World {
             let mut inside = self.inside();
             inside.run(now);
             let arrived = inside.to_host.take(now, buffer.len());
-            if arrived.sound {
-                inside.heard = now;
-            }
             if !arrived.bytes.is_empty() {
                 inside.listen(now, &arrived.bytes);
                 buffer[..arrived.bytes.len()].copy_from_slice(&arrived.bytes);
