@@ -4,30 +4,10 @@
 //! `DEICTIC_IMAGE_MPS2_AN386_CAN` names the image; `cargo xtask test` builds it. Skipped, with a word, where
 //! none is named.
 
-use std::net::{Ipv4Addr, TcpListener};
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 
+use deictic::link::Emulation;
 use serde_json::Value;
-
-/// A running board; dropping it pulls the plug.
-struct Board(Child);
-
-impl Drop for Board {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-fn boot(image: &str, port: u16) -> Board {
-    let second = format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on");
-    let mut qemu = Command::new(deictic::link::QEMU);
-    qemu.args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
-        .args(["-kernel", image])
-        .args(["-serial", "null", "-serial", &second, "-serial", "null"]);
-    qemu.stdin(Stdio::null()).stdout(Stdio::null());
-    Board(qemu.spawn().unwrap())
-}
 
 /// What was decided for every command of the demo.
 fn decisions(board: &str) -> Vec<Value> {
@@ -48,15 +28,10 @@ fn a_board_on_a_bus_decides_as_one_in_this_process() {
         eprintln!("skipped: no image of a board on a CAN bus; `cargo xtask test` builds one");
         return;
     };
-    let free = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
-    let port = free.local_addr().unwrap().port();
-    drop(free);
-    let _board = boot(&image, port);
-    let until = std::time::Instant::now() + std::time::Duration::from_secs(20);
-    while std::net::TcpStream::connect((Ipv4Addr::LOCALHOST, port)).is_err() {
-        assert!(std::time::Instant::now() < until, "QEMU does not listen");
-        std::thread::sleep(std::time::Duration::from_millis(50));
-    }
+    let mut board = Emulation::start(image.as_ref(), [false, true, false], &[]).unwrap();
+    // The bridge comes to the line itself, which takes one host at a time.
+    drop(board.take(1));
+    let port = board.port(1).unwrap();
     let on_bus = decisions(&format!("slcan:tcp:127.0.0.1:{port}"));
     assert_eq!(on_bus.len(), 20);
     assert_eq!(on_bus, decisions("inside"));

@@ -1,28 +1,23 @@
 //! The release image, untouched, on a board whose memory was painted before it started: what paint is left below the
 //! stack afterwards says how deep the stack ever was, interrupts on top of the loop included.
 
+use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use deictic::link::{self, Line};
+use deictic::link::{self, Emulation};
 
 use crate::host::Wire;
-
-/// The emulator's program.
-const QEMU: &str = "qemu-system-arm";
 
 /// What memory is painted with.
 const PAINT: u8 = 0xac;
 
-/// How long the emulator may take to open the board's lines.
-const PATIENCE: Duration = Duration::from_secs(20);
-
 /// A running board and its lines.
 pub struct Painted {
-    qemu: Child,
+    /// What runs until it is dropped.
+    _emulation: Emulation,
     host: Box<dyn link::Wire>,
     sensor: Box<dyn link::Wire>,
     control: BufReader<TcpStream>,
@@ -35,17 +30,6 @@ fn free_port() -> u16 {
     listener.local_addr().expect("it has one").port()
 }
 
-fn reach<T, E: std::fmt::Debug>(mut open: impl FnMut() -> Result<T, E>) -> T {
-    let patience = Instant::now() + PATIENCE;
-    loop {
-        match open() {
-            Ok(opened) => return opened,
-            Err(error) => assert!(Instant::now() < patience, "no board: {error:?}"),
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-}
-
 impl Painted {
     /// Paints `stack`, boots `image` and connects to it.
     ///
@@ -53,9 +37,6 @@ impl Painted {
     /// When QEMU does not start or does not listen in time.
     #[must_use]
     pub fn boot(image: &Path, stack: std::ops::Range<u32>) -> Self {
-        let ports = [(); 3].map(|()| free_port());
-        let [host, sensor, control] =
-            ports.map(|port| format!("tcp:127.0.0.1:{port},server=on,wait=off"));
         let paint = std::env::temp_dir().join(format!("deictic-paint-{}", std::process::id()));
         std::fs::write(&paint, vec![PAINT; stack.len()]).expect("a temporary file");
         let loader = format!(
@@ -63,27 +44,18 @@ impl Painted {
             paint.display(),
             stack.start
         );
-        let qemu = Command::new(QEMU)
-            .args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
-            .args(["-chardev", "null,id=log"])
-            .args(["-semihosting-config", "enable=on,target=native,chardev=log"])
-            .args(["-serial", &format!("{host},nodelay=on"), "-serial", "null"])
-            .args(["-serial", &format!("{sensor},nodelay=on"), "-qmp", &control])
-            .args(["-device", &loader, "-kernel"])
-            .arg(image)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .spawn()
+        let port = free_port();
+        let control = format!("tcp:127.0.0.1:{port},server=on,wait=off");
+        let further = ["-device", &loader, "-qmp", &control].map(OsString::from);
+        let mut emulation = Emulation::start(image, [true, false, true], &further)
             .expect("QEMU is there: `cargo xtask setup` installs it");
-        let line = |port| Line::Tcp {
-            host: "127.0.0.1".into(),
-            port,
-        };
+        let control = TcpStream::connect(("127.0.0.1", port)).expect("QEMU listens there, too");
+        let mut line = |uart| emulation.take(uart).expect("it was wanted");
         let mut board = Self {
-            host: reach(|| link::open_line(&line(ports[0]))),
-            sensor: reach(|| link::open_line(&line(ports[1]))),
-            control: BufReader::new(reach(|| TcpStream::connect(("127.0.0.1", ports[2])))),
-            qemu,
+            host: line(0),
+            sensor: line(2),
+            control: BufReader::new(control),
+            _emulation: emulation,
             stack,
         };
         // QEMU listens before it reads the paint, but answers only after it.
@@ -148,12 +120,5 @@ impl Wire for Painted {
         let read = self.host.read(&mut bytes, patience);
         bytes.truncate(read.expect("the board's link is open"));
         bytes
-    }
-}
-
-impl Drop for Painted {
-    fn drop(&mut self) {
-        let _ = self.qemu.kill();
-        let _ = self.qemu.wait();
     }
 }

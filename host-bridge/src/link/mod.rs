@@ -15,7 +15,7 @@ use deictic_core::protocol::seal::Key;
 
 pub use address::{Address, AddressError, Line, LineError};
 pub use inside::Inside;
-pub use qemu::{IMAGE_VARIABLE, QEMU};
+pub use qemu::{Emulation, IMAGE_VARIABLE, QEMU};
 pub use serial::Pair;
 
 /// A stream of bytes to a unit and back.
@@ -125,7 +125,7 @@ pub enum WireError {
 /// [`WireError`] with what to do about it.
 pub fn open_with_sensor() -> Result<[Box<dyn Wire>; 2], WireError> {
     let (board, sensor) = qemu::Board::boot_with_sensor()?;
-    Ok([Box::new(board), Box::new(sensor)])
+    Ok([Box::new(board), sensor])
 }
 
 /// Opens the wire to a unit.

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io;
 use std::net::TcpListener;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -19,69 +19,157 @@ pub const IMAGE_VARIABLE: &str = "DEICTIC_IMAGE_MPS2_AN386";
 /// Where `cargo xtask firmware` puts the image, from the project's root.
 const IMAGE: &str = "target/thumbv7em-none-eabihf/release/mps2-an386";
 
-/// How long the emulator may take to open the board's link, on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// How long the emulator may take to open a board's lines, on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A running board.
-pub struct Board {
+/// How often an emulator is started anew that ended at once: somebody was faster at its ports.
+const ATTEMPTS: usize = 3;
+
+/// The board's UARTs, of which the first is the host link and the third the hand sensor's.
+const UARTS: usize = 3;
+
+/// A board that is being emulated, until this is dropped.
+pub struct Emulation {
     qemu: Child,
-    stream: Stream,
+    ports: [Option<u16>; UARTS],
+    lines: [Option<Stream>; UARTS],
+}
+
+impl Emulation {
+    /// Starts the image, with further arguments of the emulator, and connects to those of its UARTs that are `wanted`.
+    ///
+    /// # Errors
+    /// [`WireError`] with what to do about it.
+    pub fn start(
+        image: &Path,
+        wanted: [bool; UARTS],
+        further: &[OsString],
+    ) -> Result<Self, WireError> {
+        let mut attempts = 1..ATTEMPTS;
+        loop {
+            let mut emulation = Self::spawn(image, wanted, further)?;
+            match (emulation.connect(), attempts.next()) {
+                (Ok(()), _) => return Ok(emulation),
+                (Err(cause), None) => return Err(WireError::Silent(cause)),
+                (Err(_), Some(_)) => {}
+            }
+        }
+    }
+
+    fn spawn(image: &Path, wanted: [bool; UARTS], further: &[OsString]) -> Result<Self, WireError> {
+        let mut ports = [None; UARTS];
+        for (port, _) in ports.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
+            *port = Some(free_port().map_err(WireError::Silent)?);
+        }
+        let mut qemu = Command::new(QEMU);
+        qemu.args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
+            .args(["-chardev", "null,id=log"])
+            .args(["-semihosting-config", "enable=on,target=native,chardev=log"]);
+        for port in ports {
+            let listening = |port| format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on");
+            qemu.args([
+                "-serial",
+                &port.map_or_else(|| "null".to_owned(), listening),
+            ]);
+        }
+        qemu.args(further).arg("-kernel").arg(image);
+        qemu.stdin(Stdio::null()).stdout(Stdio::null());
+        Ok(Self {
+            qemu: qemu.spawn().map_err(WireError::NoQemu)?,
+            ports,
+            lines: [const { None }; UARTS],
+        })
+    }
+
+    /// Connects to all UARTs that are wanted; an error when the emulator has ended or takes too long.
+    fn connect(&mut self) -> io::Result<()> {
+        let patience = Instant::now() + PATIENCE;
+        for (line, port) in self.lines.iter_mut().zip(self.ports) {
+            let Some(port) = port else { continue };
+            *line = loop {
+                if let Ok(stream) = Stream::open("127.0.0.1", port) {
+                    break Some(stream);
+                }
+                if let Some(status) = self.qemu.try_wait()? {
+                    return Err(io::Error::other(format!("it has ended ({status})")));
+                }
+                if Instant::now() >= patience {
+                    return Err(io::ErrorKind::TimedOut.into());
+                }
+                std::thread::sleep(Duration::from_millis(5));
+            };
+        }
+        Ok(())
+    }
+
+    /// The line to one of its UARTs, once.
+    pub fn take(&mut self, uart: usize) -> Option<Box<dyn Wire>> {
+        let line = self.lines.get_mut(uart)?.take()?;
+        Some(Box::new(line))
+    }
+
+    /// Where one of its UARTs listens, to one host at a time.
+    #[must_use]
+    pub fn port(&self, uart: usize) -> Option<u16> {
+        self.ports.get(uart).copied().flatten()
+    }
+
+    /// The number of the emulator's process.
+    #[must_use]
+    pub fn process(&self) -> u32 {
+        self.qemu.id()
+    }
+}
+
+impl Drop for Emulation {
+    fn drop(&mut self) {
+        // It may have ended by itself, which is as good.
+        let _ = self.qemu.kill();
+        let _ = self.qemu.wait();
+    }
+}
+
+/// A running board and its host link.
+pub struct Board {
+    host: Box<dyn Wire>,
+    _emulation: Emulation,
 }
 
 impl Board {
     /// Boots the image and connects to its host link.
     pub fn boot() -> Result<Self, WireError> {
-        Self::boot_with(None)
+        Self::with(Emulation::start(&image()?, [true, false, false], &[])?)
     }
 
     /// Boots the image and connects to its host link and to its hand sensor's.
-    pub fn boot_with_sensor() -> Result<(Self, Stream), WireError> {
-        let port = free_port().map_err(WireError::Silent)?;
-        let board = Self::boot_with(Some(port))?;
-        let sensor = Stream::open("127.0.0.1", port)?;
-        Ok((board, sensor))
+    pub fn boot_with_sensor() -> Result<(Self, Box<dyn Wire>), WireError> {
+        let mut emulation = Emulation::start(&image()?, [true, false, true], &[])?;
+        let sensor = emulation.take(2).ok_or_else(unconnected)?;
+        Ok((Self::with(emulation)?, sensor))
     }
 
-    fn boot_with(sensor: Option<u16>) -> Result<Self, WireError> {
-        let image = std::env::var_os(IMAGE_VARIABLE).unwrap_or_else(|| OsString::from(IMAGE));
-        let image = PathBuf::from(image);
-        if !image.is_file() {
-            return Err(WireError::NoImage {
-                path: image.display().to_string(),
-            });
-        }
-        let listening = |port| format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on");
-        let port = free_port().map_err(WireError::Silent)?;
-        let sensor = sensor.map_or_else(|| "null".to_owned(), listening);
-        let mut qemu = Command::new(QEMU)
-            .args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
-            .args(["-chardev", "null,id=log"])
-            .args(["-semihosting-config", "enable=on,target=native,chardev=log"])
-            .args(["-serial", &listening(port), "-serial", "null"])
-            .args(["-serial", &sensor, "-kernel"])
-            .arg(image)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .spawn()
-            .map_err(WireError::NoQemu)?;
-        let patience = Instant::now() + PATIENCE;
-        loop {
-            match Stream::open("127.0.0.1", port) {
-                Ok(stream) => return Ok(Self { qemu, stream }),
-                Err(_) if Instant::now() < patience => {
-                    std::thread::sleep(Duration::from_millis(20))
-                }
-                Err(WireError::Tcp { cause, .. }) => {
-                    end(&mut qemu);
-                    return Err(WireError::Silent(cause));
-                }
-                Err(other) => {
-                    end(&mut qemu);
-                    return Err(other);
-                }
-            }
-        }
+    fn with(mut emulation: Emulation) -> Result<Self, WireError> {
+        Ok(Self {
+            host: emulation.take(0).ok_or_else(unconnected)?,
+            _emulation: emulation,
+        })
     }
+}
+
+fn unconnected() -> WireError {
+    WireError::Silent(io::ErrorKind::NotConnected.into())
+}
+
+/// The image that is named, or that lies where it is built.
+fn image() -> Result<PathBuf, WireError> {
+    let image = std::env::var_os(IMAGE_VARIABLE).unwrap_or_else(|| OsString::from(IMAGE));
+    let image = PathBuf::from(image);
+    if image.is_file() {
+        return Ok(image);
+    }
+    Err(WireError::NoImage {
+        path: image.display().to_string(),
+    })
 }
 
 /// A port of the loopback interface where nobody listens.
@@ -89,24 +177,12 @@ fn free_port() -> io::Result<u16> {
     Ok(TcpListener::bind(("127.0.0.1", 0))?.local_addr()?.port())
 }
 
-fn end(qemu: &mut Child) {
-    // It may have ended by itself, which is as good.
-    let _ = qemu.kill();
-    let _ = qemu.wait();
-}
-
 impl Wire for Board {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.stream.write(bytes)
+        self.host.write(bytes)
     }
 
     fn read(&mut self, buffer: &mut [u8], patience: Duration) -> io::Result<usize> {
-        self.stream.read(buffer, patience)
-    }
-}
-
-impl Drop for Board {
-    fn drop(&mut self) {
-        end(&mut self.qemu);
+        self.host.read(buffer, patience)
     }
 }

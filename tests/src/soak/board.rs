@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::io;
-use std::net::TcpListener;
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
 use deictic::clock;
-use deictic::link::{self, Line as Address, Wire};
+use deictic::link::{Emulation, Wire};
 use deictic_core::decide::Outcome;
 use deictic_core::large::{Intent, Link, ToHost};
 use deictic_core::protocol::message::Statistics;
@@ -24,14 +23,8 @@ pub const HASTE: u32 = 25;
 /// The environment variable that names that image, which `cargo xtask soak` sets.
 const IMAGE_VARIABLE: &str = "DEICTIC_IMAGE_HASTY";
 
-/// The emulator's program.
-const QEMU: &str = "qemu-system-arm";
-
 /// The farthest that the bridge's clock jumps: more than all of its patience with a unit.
 const FARTHEST: Duration = Duration::from_secs(5);
-
-/// How long the emulator may take to open the board's link.
-const BOOT: Duration = Duration::from_secs(20);
 
 /// Whether there is an image to run; says why not when there is none.
 #[must_use]
@@ -62,7 +55,8 @@ pub struct Heard {
 }
 
 struct Inside {
-    qemu: Child,
+    /// None in the moment between two boards.
+    emulation: Option<Emulation>,
     wire: Box<dyn Wire>,
     boots: u32,
     booted: Instant,
@@ -73,13 +67,6 @@ struct Inside {
     heard: Heard,
 }
 
-impl Drop for Inside {
-    fn drop(&mut self) {
-        let _ = self.qemu.kill();
-        let _ = self.qemu.wait();
-    }
-}
-
 /// A handle on the board and its line, which is also the bridge's wire.
 #[derive(Clone)]
 pub struct Cable {
@@ -87,34 +74,12 @@ pub struct Cable {
     began: Instant,
 }
 
-fn boot() -> (Child, Box<dyn Wire>) {
-    let listener = TcpListener::bind(("127.0.0.1", 0)).expect("a free port");
-    let port = listener.local_addr().expect("it has one").port();
-    drop(listener);
-    let qemu = Command::new(QEMU)
-        .args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
-        .args(["-chardev", "null,id=log"])
-        .args(["-semihosting-config", "enable=on,target=native,chardev=log"])
-        .arg("-serial")
-        .arg(format!(
-            "tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on"
-        ))
-        .args(["-serial", "null", "-serial", "null", "-kernel"])
-        .arg(std::env::var_os(IMAGE_VARIABLE).expect("an image"))
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .spawn()
+fn boot() -> (Emulation, Box<dyn Wire>) {
+    let image = std::env::var_os(IMAGE_VARIABLE).expect("an image");
+    let mut board = Emulation::start(image.as_ref(), [true, false, false], &[])
         .expect("QEMU is there: `cargo xtask setup` installs it");
-    let host = "127.0.0.1".to_owned();
-    let line = Address::Tcp { host, port };
-    let patience = Instant::now() + BOOT;
-    loop {
-        match link::open_line(&line) {
-            Ok(wire) => return (qemu, wire),
-            Err(error) => assert!(Instant::now() < patience, "no board: {error}"),
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    let wire = board.take(0).expect("it was wanted");
+    (board, wire)
 }
 
 impl Cable {
@@ -122,9 +87,9 @@ impl Cable {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let booted = Instant::now();
-        let (qemu, wire) = boot();
+        let (emulation, wire) = boot();
         let inside = Inside {
-            qemu,
+            emulation: Some(emulation),
             wire,
             boots: 1,
             booted,
@@ -245,10 +210,10 @@ impl Around for Cable {
 
     fn restart(&self) {
         let mut inside = self.inside();
-        let _ = inside.qemu.kill();
-        let _ = inside.qemu.wait();
+        inside.emulation = None;
         inside.booted = Instant::now();
-        (inside.qemu, inside.wire) = boot();
+        let (board, wire) = boot();
+        (inside.emulation, inside.wire) = (Some(board), wire);
         inside.boots += 1;
         inside.to_unit.break_after(0);
         inside.heard.decisions = 0;
@@ -266,7 +231,8 @@ impl Around for Cable {
     fn freeze(&self, span: Micros) {
         let inside = self.inside();
         let signal = |name: &str| {
-            let id = inside.qemu.id().to_string();
+            let id = inside.emulation.as_ref().map_or(0, Emulation::process);
+            let id = id.to_string();
             let done = Command::new("kill").args([name, &id]).status();
             assert!(done.is_ok_and(|status| status.success()), "kill {name}");
         };
