@@ -35,8 +35,8 @@ macro_rules! capacities {
             pub type Observations = crate::observations::Observations<$w, $c, $n>;
             /// [`crate::intent::Intent`] of these capacities.
             pub type Intent = crate::intent::Intent<$c>;
-            /// [`crate::decide::Decision`] of these capacities.
-            pub type Decision = crate::decide::Decision<$c>;
+            /// [`crate::decision::Decision`] of these capacities.
+            pub type Decision = crate::decision::Decision<$c>;
             /// [`crate::trace::Trace`] of these capacities.
             pub type Trace = crate::trace::Trace<$c, $n>;
             /// [`crate::protocol::message::ToUnit`] of these capacities.

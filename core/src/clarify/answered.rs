@@ -4,14 +4,14 @@
 //! gone meanwhile, something else would be the likeliest by default: then it is asked about.
 
 use crate::category::Category;
-use crate::decide::{FEASIBLE, Reason};
-use crate::fuse::Situation;
+use crate::decision::{FEASIBLE, Reason};
 use crate::intent::Intent;
 use crate::joint::fit::product;
 use crate::joint::posterior::Triple;
 use crate::math;
 use crate::observations::Observations;
 use crate::sentence::ANSWER;
+use crate::situation::Situation;
 
 /// By how much an answered option must be clearer than the chosen one: 4 to 1, twice its logarithm.
 const CLEARER: f32 = 2.77;

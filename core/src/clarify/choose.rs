@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::gain;
 use crate::category::Category;
-use crate::decide::{Kind, Question, Reason, name};
+use crate::decision::{Kind, Question, Reason, name};
 use crate::intent::Intent;
 use crate::math::larger;
 use crate::trace::Trace;

@@ -26,11 +26,11 @@
 //! recalibrates (`deictic-eval calibrate`). A word of uncertain category counts by its probability.
 
 use crate::category::{Category, CategorySet};
-use crate::decide::Decision;
-use crate::fuse::Situation;
+use crate::decision::Decision;
 use crate::math::larger;
 use crate::profile::{Profile, ProfileError};
 use crate::sentence::{ANSWER, MODALITIES, Word};
+use crate::situation::Situation;
 use crate::trace::Trace;
 use crate::vocabulary::Vocabulary;
 

@@ -10,11 +10,11 @@ use super::posterior::Found;
 use crate::category::Category;
 use crate::clarify::answered;
 use crate::clarify::choose::{about, choose};
-use crate::decide::{CANDIDATES, Decision, FEASIBLE, Kind, Outcome, Question, Reason, name};
-use crate::fuse::Situation;
+use crate::decision::{CANDIDATES, Decision, FEASIBLE, Kind, Outcome, Question, Reason, name};
 use crate::intent::{Intent, Parameter};
 use crate::judgement::{Judgement, bit};
 use crate::profile::{Profile, Threshold};
+use crate::situation::Situation;
 use crate::trace::{CategoryTrace, Trace};
 
 /// An option is offered when its marginal is at least this.
