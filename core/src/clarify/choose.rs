@@ -34,7 +34,8 @@ pub fn choose<const N: usize, const C: usize>(
             most = (gain, category);
         }
     }
-    (surest >= LOST).then(|| about(best, trace, most.1, Reason::TooClose))
+    let (gain, category) = most;
+    (surest >= LOST).then(|| put(best, trace, category, Reason::TooClose, gain))
 }
 
 /// The question about this category, or about the whole intent, whichever has the larger gain per
@@ -46,11 +47,22 @@ pub fn about<const N: usize, const C: usize>(
     category: Category,
     reason: Reason,
 ) -> Question {
+    let marginal = trace.category(category);
+    let marginal = marginal.map_or(&[][..], |word| word.merged());
+    let gain = gain::which(marginal, trace.belief.noise);
+    put(best, trace, category, reason, gain)
+}
+
+/// The question about this category, of which this is the gain, or about the whole intent.
+fn put<const N: usize, const C: usize>(
+    best: &Intent<C>,
+    trace: &Trace<C, N>,
+    category: Category,
+    reason: Reason,
+    gain: f32,
+) -> Question {
     let belief = trace.belief;
-    let marginal = trace
-        .category(category)
-        .map_or(&[][..], |word| word.merged());
-    let which = gain::which(marginal, belief.noise) * (1.0 / gain::WHICH);
+    let which = gain * (1.0 / gain::WHICH);
     let confirm = gain::confirm(belief.posterior, belief.noise) * (1.0 / gain::CONFIRM);
     let mut question = Question {
         kind: if confirm > which {

@@ -65,6 +65,14 @@ impl Costs {
         Self([a.wrapping_add(c), b.wrapping_add(d)])
     }
 
+    /// So many of them together. The sum must stay below 2^16.
+    #[must_use]
+    #[inline(always)]
+    pub const fn times(self, count: usize) -> Self {
+        let Self([a, b]) = self;
+        Self([a.wrapping_mul(count as u32), b.wrapping_mul(count as u32)])
+    }
+
     /// What is left of these costs without `other`, none of which may be larger.
     #[must_use]
     #[inline(always)]

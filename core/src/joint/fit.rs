@@ -91,7 +91,15 @@ fn note(present: &[f32], needed: &mut [u16], foreign: &mut [u16]) {
 fn costs(needed: &[u16], foreign: &[u16], actions: &[Action], prior: &mut [u16]) {
     let all: u32 = foreign.iter().map(|cost| u32::from(*cost)).sum();
     let at = |costs: &[u16], q: usize| costs.get(q).map_or(0, |cost| u32::from(*cost));
+    // Neighbours are often alike.
+    let mut last = None;
     for (prior, action) in prior.iter_mut().zip(actions) {
+        if let Some((signature, cost)) = last
+            && signature == action.signature
+        {
+            *prior = cost;
+            continue;
+        }
         let mut cost = all;
         for q in action.signature.compulsory.iter() {
             cost = cost
@@ -102,6 +110,7 @@ fn costs(needed: &[u16], foreign: &[u16], actions: &[Action], prior: &mut [u16])
             cost = cost.saturating_sub(at(foreign, q));
         }
         *prior = cost.min(u32::from(u16::MAX)) as u16;
+        last = Some((action.signature, *prior));
     }
 }
 

@@ -71,9 +71,12 @@ impl<'a> Likely<'a> {
         }
     }
 
-    /// Adds what it costs every option, relative to the likeliest.
-    pub fn add(&self, heard: &mut [Costs]) {
-        for (heard, &p) in heard.iter_mut().zip(self.likelihoods) {
+    /// Adds what it costs these options, relative to the likeliest of all.
+    pub fn add(&self, options: &[u8], heard: &mut [Costs]) {
+        for (heard, &option) in heard.iter_mut().zip(options) {
+            let Some(&p) = self.likelihoods.get(usize::from(option)) else {
+                continue;
+            };
             let cost = of(p).saturating_sub(self.least).min(CLASH);
             let cost = Costs::all(cost).weighed(self.weight);
             put(heard, cost.least(Costs::all(DEAREST)), self.first);
@@ -105,7 +108,8 @@ mod tests {
     fn the_likeliest_costs_nothing() {
         let costs = |weight| {
             let mut costs = [Costs::all(7); 5];
-            Likely::new(&[0.25, 0.5, 0.0, 1.0, f32::NAN], weight, true).add(&mut costs);
+            Likely::new(&[0.25, 0.5, 0.0, 1.0, f32::NAN], weight, true)
+                .add(&[0, 1, 2, 3, 4], &mut costs);
             costs.map(|c| c.lanes()[0])
         };
         let [quarter, half, never, sure, nothing] = costs(256);

@@ -15,7 +15,7 @@ use crate::intent::{Intent, Parameter};
 use crate::judgement::{Judgement, bit};
 use crate::profile::{Profile, Threshold};
 use crate::situation::Situation;
-use crate::trace::{CategoryTrace, Trace};
+use crate::trace::Trace;
 
 /// An option is offered when its marginal is at least this.
 const OFFERED: f32 = 0.01;
@@ -36,7 +36,12 @@ pub fn outcome<const N: usize, const C: usize, const F: usize, const E: usize, c
     let left = profile
         .questions
         .saturating_sub(situation.observations.answers());
-    let mut decision = decide(situation, profile, left, found, trace);
+    // Filled in where it stays: one that is moved costs 300 instructions.
+    let mut decision = Decision {
+        outcome: Outcome::Repeat,
+        best: None,
+    };
+    decide(situation, profile, left, found, trace, &mut decision);
     if left == 0 && matches!(decision.outcome, Outcome::Ask(_)) {
         decision.outcome = Outcome::GiveUp;
     }
@@ -49,38 +54,42 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
     left: u8,
     found: Option<Found>,
     trace: &mut Trace<C, N>,
-) -> Decision<C> {
+    decision: &mut Decision<C>,
+) {
     let mut spoken = false;
     let used = situation.vocabulary.options().len();
     for word in trace.categories_mut().iter_mut().take(used) {
         spoken |= word.present > 0.0;
-        settle(word, found.is_some());
+        let (marginal, weights) = word.merged_and_h();
+        word.judgement = settle(marginal, weights, found.is_some());
+        word.entropy = 0.0;
+        word.threshold = 0.0;
     }
     if !spoken {
-        return undecided(Outcome::Repeat);
+        return;
     }
     let action_spoken = present(trace, Category::ACTION);
-    let Some(found) = found else {
+    if let Some(found) = &found {
+        trace.belief = found.belief;
+    }
+    let Some(found) = found.filter(|_| action_spoken) else {
         let reason = if action_spoken {
             Reason::Infeasible
         } else {
             Reason::Missing
         };
-        return undecided(ask(None, Category::ACTION, reason, trace));
+        decision.outcome = Outcome::Ask(ask(None, Category::ACTION, reason, trace));
+        return;
     };
-    trace.belief = found.belief;
-    if !action_spoken {
-        return undecided(ask(None, Category::ACTION, Reason::Missing, trace));
-    }
-    let mut best = Intent {
+    let best = decision.best.insert(Intent {
         action: found.best.action,
         parameters: Vec::new(),
-    };
-    let others = complete(situation, &found, trace, &mut best);
+    });
+    let others = complete(situation, &found, trace, best);
     trace.belief.posterior *= others;
-    let outcome = match doubt(situation, profile, &found, &best, trace) {
-        Some((category, Reason::Missing)) => ask(Some(&best), category, Reason::Missing, trace),
-        Some((category, reason)) => Outcome::Ask(about(&best, trace, category, reason)),
+    let question = match doubt(situation, profile, &found, best, trace) {
+        Some((category, Reason::Missing)) => ask(Some(best), category, Reason::Missing, trace),
+        Some((category, reason)) => about(best, trace, category, reason),
         None => {
             let suffices = match profile.threshold {
                 Threshold::Risk { rate } => {
@@ -90,24 +99,17 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
                 _ => true,
             };
             if suffices {
-                mark(&best, trace);
-                Outcome::Execute(best.clone())
-            } else {
-                choose(&best, trace).map_or(Outcome::Repeat, Outcome::Ask)
+                mark(best, trace);
+                decision.outcome = Outcome::Execute(best.clone());
+                return;
             }
+            let Some(question) = choose(best, trace) else {
+                return;
+            };
+            question
         }
     };
-    Decision {
-        outcome,
-        best: Some(best),
-    }
-}
-
-fn undecided<const C: usize>(outcome: Outcome<C>) -> Decision<C> {
-    Decision {
-        outcome,
-        best: None,
-    }
+    decision.outcome = Outcome::Ask(question);
 }
 
 fn present<const N: usize, const C: usize>(trace: &Trace<C, N>, category: Category) -> bool {
@@ -235,30 +237,32 @@ fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W
 }
 
 /// What leads in a marginal; nothing is clear yet.
-fn settle<const N: usize>(word: &mut CategoryTrace<N>, solved: bool) {
-    let (marginal, weights) = word.merged_and_h();
-    weights.fill(0.0);
+#[inline(never)]
+fn settle(marginal: &mut [f32], weights: &mut [f32], solved: bool) -> Judgement {
+    weights.iter_mut().for_each(|weight| *weight = 0.0);
     if !solved {
-        marginal.fill(0.0);
+        marginal.iter_mut().for_each(|p| *p = 0.0);
     }
     let (mut first, mut second) = (0.0, 0.0);
     let mut judgement = Judgement::NOTHING;
-    for (o, &p) in (0_u8..).zip(&*marginal) {
-        if p > first {
-            second = first;
-            first = p;
-            judgement.best = Some(o);
-        } else if p > second {
-            second = p;
+    let mut bit = 1_u64;
+    for (o, &p) in marginal.iter().enumerate() {
+        if p > second {
+            if p > first {
+                second = first;
+                first = p;
+                judgement.best = Some(o as u8);
+            } else {
+                second = p;
+            }
         }
         if p >= OFFERED {
-            judgement.unclear |= bit(o);
+            judgement.unclear |= bit;
         }
+        bit = bit.wrapping_shl(1);
     }
     judgement.lead = first - second;
-    word.judgement = judgement;
-    word.entropy = 0.0;
-    word.threshold = 0.0;
+    judgement
 }
 
 /// Notes in the trace that the options of an executed intent were clear.
@@ -281,7 +285,7 @@ fn ask<const N: usize, const C: usize>(
     category: Category,
     reason: Reason,
     trace: &Trace<C, N>,
-) -> Outcome<C> {
+) -> Question {
     let mut question = Question {
         kind: Kind::Which,
         action: best
@@ -294,5 +298,5 @@ fn ask<const N: usize, const C: usize>(
     if let Some(word) = trace.category(category) {
         name(&mut question, word.merged(), word.judgement.unclear);
     }
-    Outcome::Ask(question)
+    question
 }

@@ -11,8 +11,8 @@
 
 use super::belief::Belief;
 use super::cost::{Costs, MOST, weight};
-use super::level::{Level, Weighed};
-use super::survey::Fits;
+use super::fits::Fits;
+use super::level::{Level, Place, Weighed};
 use super::{LEVELS, Levels};
 use crate::math;
 
@@ -22,22 +22,22 @@ pub(super) const NEGLIGIBLE: u32 = 352;
 /// One category's options.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// Those that are weighed.
+    /// Those that are weighed, in rising order.
     pub live: &'a [u8],
-    /// What each costs.
+    /// What each of them costs.
     pub costs: &'a [Costs],
     /// One over their number, 1 when there are none.
     pub per_count: f32,
 }
 
 impl<'a> Options<'a> {
-    /// Those of `live`.
+    /// Those of `live`, by whose places the costs are.
     #[must_use]
     pub fn new(live: &'a [u8], costs: &'a [Costs]) -> Self {
         let per_count = 1.0 / live.len().max(1) as f32;
         Self {
             live,
-            costs,
+            costs: costs.get(..live.len()).unwrap_or(costs),
             per_count,
         }
     }
@@ -46,10 +46,8 @@ impl<'a> Options<'a> {
     #[must_use]
     pub fn least(&self) -> Costs {
         let mut least = Costs::all(if self.live.is_empty() { 0 } else { MOST });
-        for &o in self.live {
-            if let Some(costs) = self.costs.get(usize::from(o)) {
-                least = least.least(*costs);
-            }
+        for costs in self.costs {
+            least = least.least(*costs);
         }
         least
     }
@@ -99,9 +97,13 @@ pub struct Found {
 
 impl Posterior<'_> {
     /// The best intent; the marginals of actions, objects and storages are filled in. Of `room`
-    /// there must be as much as there are rows. `None` when nothing can be done.
+    /// there must be as much as there are rows of each kind. `None` when nothing can be done.
     #[inline(never)]
-    pub fn solve(&self, room: &mut [Weighed], marginals: &mut [Marginal<'_>; 3]) -> Option<Found> {
+    pub fn solve(
+        &self,
+        mut room: [&mut [Weighed]; 2],
+        marginals: &mut [Marginal<'_>; 3],
+    ) -> Option<Found> {
         for marginal in marginals.iter_mut() {
             marginal.of.iter_mut().for_each(|p| *p = 0.0);
         }
@@ -109,11 +111,12 @@ impl Posterior<'_> {
             return None;
         }
         let [objects, storages] = &self.things;
-        let least = [&self.deeds, objects, storages].map(Options::least);
+        let least = [self.deeds.least(), objects.least(), storages.least()];
         let mut base = self.rest;
         for least in least {
             for (base, least) in base.iter_mut().zip(least.lanes()) {
-                *base = base.saturating_add(u32::from(least));
+                // No more than 31 categories of 2^16 together.
+                *base = base.wrapping_add(u32::from(least));
             }
         }
         let best = base.iter().copied().min()?;
@@ -123,12 +126,12 @@ impl Posterior<'_> {
             let above = base.saturating_sub(best);
             if above <= NEGLIGIBLE {
                 level.scale = weight(above);
-                self.weigh(b, &least, level, room, marginals);
+                self.weigh(b, &least, level, &mut room, marginals);
                 total += level.share;
             }
         }
         // Not above 0 either when it is not a number.
-        if !(total > 0.0 && total.is_finite()) {
+        if !(total > 0.0 && total < f32::INFINITY) {
             return None;
         }
         let per_total = 1.0 / total;
@@ -140,41 +143,83 @@ impl Posterior<'_> {
                 most = (level.share, b);
             }
         }
-        for marginal in marginals.iter_mut() {
-            marginal.of.iter_mut().for_each(|p| *p *= per_total);
+        let live = [self.deeds.live, objects.live, storages.live];
+        for (marginal, live) in marginals.iter_mut().zip(live) {
+            expand(marginal.of, live, per_total);
         }
         let (best, share) = self.best(&levels, &least)?;
         Some(Found {
-            best,
+            best: self.triple(&best)?,
             belief: Belief {
                 posterior: math::clamp_unit(share * per_total),
                 noise,
             },
-            shares: levels.map(|level| level.share * per_total),
+            shares: levels.each_ref().map(|level| level.share * per_total),
             level: most.1,
         })
     }
 
     /// The best of the levels' best intents, and what it holds at all levels.
-    fn best(&self, levels: &[Level; LEVELS], least: &[Costs; 3]) -> Option<(Triple, f32)> {
+    #[inline(never)]
+    fn best(&self, levels: &[Level], least: &[Costs; 3]) -> Option<(Place, f32)> {
         let mut largest = None;
         let mut share = 0.0;
-        for candidate in levels.iter().filter_map(|level| level.best) {
+        for candidate in levels.iter().filter(|level| level.peak > 0.0) {
+            let candidate = &candidate.best;
             if largest == Some(candidate) {
                 continue;
             }
             let mut sum = 0.0;
-            for (b, level) in levels.iter().enumerate() {
-                if level.best == Some(candidate) {
-                    sum += level.peak;
-                } else if level.scale > 0.0 {
-                    sum += self.share(b, level, least, candidate);
-                }
+            let known = levels
+                .iter()
+                .enumerate()
+                .filter(|(_, level)| level.scale > 0.0);
+            for (b, level) in known {
+                sum += if level.peak > 0.0 && level.best == *candidate {
+                    level.peak
+                } else {
+                    self.share(b, level, least, candidate)
+                };
             }
             if sum > share {
                 (largest, share) = (Some(candidate), sum);
             }
         }
-        Some((largest?, share))
+        Some((*largest?, share))
+    }
+
+    /// The intent in these places.
+    fn triple(&self, place: &Place) -> Option<Triple> {
+        let [objects, storages] = &self.things;
+        let [object, storage] = place.things;
+        let at = |options: &Options<'_>, at: u8| options.live.get(usize::from(at)).copied();
+        Some(Triple {
+            action: at(&self.deeds, place.action)?,
+            things: [at(objects, object), at(storages, storage)],
+        })
+    }
+}
+
+/// Moves what stands in the places of live options to the options themselves, scaled; all others
+/// are 0.
+#[inline(never)]
+fn expand(of: &mut [f32], live: &[u8], scale: f32) {
+    let mut upto = of.len();
+    for (at, &option) in live.iter().enumerate().rev() {
+        // No option has a place beyond its own number.
+        let option = usize::from(option);
+        let Some(p) = of.get(at).copied() else {
+            continue;
+        };
+        if let Some(others) = of.get_mut(option..upto)
+            && let [to, others @ ..] = others
+        {
+            *to = p * scale;
+            others.iter_mut().for_each(|p| *p = 0.0);
+        }
+        upto = option;
+    }
+    if let Some(others) = of.get_mut(..upto) {
+        others.iter_mut().for_each(|p| *p = 0.0);
     }
 }

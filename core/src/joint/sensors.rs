@@ -3,6 +3,8 @@
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
+use super::reports::Place;
+pub use super::reports::{Rows, Sensor, Tables};
 use crate::category::Category;
 use crate::sentence::MODALITIES;
 
@@ -10,8 +12,9 @@ use crate::sentence::MODALITIES;
 /// the paper's similarity tables, 0.2 to 0.5.
 pub const ELSEWHERE: f32 = 0.3;
 
-/// How many sensors can be known: eight categories of two modalities, or four of four.
-pub const TABLES: usize = 16;
+/// How many sensors can be known: sixteen categories of four modalities, all that the largest build
+/// has.
+pub const TABLES: usize = 64;
 
 /// Why a row of a table was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,19 +34,6 @@ pub enum SensorError {
         /// How many options the table has.
         options: u8,
     },
-}
-
-/// Where a table is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Place {
-    modality: u8,
-    category: Category,
-    options: u8,
-    start: u16,
-    /// Whether it reports likelihoods as they are; a table that it had is kept, unused.
-    likelihoods: bool,
-    /// What is reported of every option but the one that is meant, when that is the same of all.
-    elsewhere: Option<u8>,
 }
 
 /// Learned confusion tables, as the paper's similarity tables are, by modality and category; `B`
@@ -96,14 +86,14 @@ impl<const B: usize> Sensors<B> {
         check(modality)?;
         self.drop_empty(modality, category);
         let known = self.view().place(modality, category);
-        let options = known.map_or(row.len(), |place| usize::from(place.options));
+        let options = known.map_or(row.len(), |(place, _)| usize::from(place.options));
         if options != row.len() || usize::from(meant) >= options {
             return Err(SensorError::NotSquare {
                 options: u8::try_from(options).unwrap_or(u8::MAX),
             });
         }
         let start = match known {
-            Some(place) => usize::from(place.start),
+            Some((_, start)) => start,
             None => self.begin(modality, category, options)?,
         };
         let start = start.saturating_add(options.saturating_mul(usize::from(meant)));
@@ -112,8 +102,7 @@ impl<const B: usize> Sensors<B> {
             *byte = *value;
         }
         let elsewhere = self.view().rows(modality, category, options).flat();
-        let is = |place: &&mut Place| place.modality == modality && place.category == category;
-        if let Some(place) = self.places.iter_mut().find(is) {
+        if let Some(place) = self.find(modality, category) {
             place.elsewhere = elsewhere;
             place.likelihoods = false;
         }
@@ -128,26 +117,27 @@ impl<const B: usize> Sensors<B> {
     /// [`SensorError`]; nothing has changed then.
     pub fn set_likelihoods(&mut self, modality: u8, category: Category) -> Result<(), SensorError> {
         check(modality)?;
-        let is = |place: &&mut Place| place.modality == modality && place.category == category;
-        if let Some(place) = self.places.iter_mut().find(is) {
+        if let Some(place) = self.find(modality, category) {
             place.likelihoods = true;
             return Ok(());
         }
         let place = Place {
-            modality,
-            category,
-            options: 0,
-            start: 0,
             likelihoods: true,
-            elsewhere: None,
+            ..Place::new(modality, category, 0)
         };
         self.places.push(place).map_err(|_| Self::TOO_LARGE)
     }
 
+    fn find(&mut self, modality: u8, category: Category) -> Option<&mut Place> {
+        let key = Place::new(modality, category, 0).key;
+        self.places.iter_mut().find(|place| place.key == key)
+    }
+
     /// Makes room for a table where there was none.
     fn drop_empty(&mut self, modality: u8, category: Category) {
+        let key = Place::new(modality, category, 0).key;
         self.places
-            .retain(|p| p.options > 0 || (p.modality, p.category) != (modality, category));
+            .retain(|place| place.options > 0 || place.key != key);
     }
 
     const TOO_LARGE: SensorError = SensorError::TooLarge {
@@ -167,17 +157,11 @@ impl<const B: usize> Sensors<B> {
         let too_large = Self::TOO_LARGE;
         let start = self.bytes.len();
         let more = options.saturating_mul(options);
-        let place = Place {
-            modality,
-            category,
-            options: u8::try_from(options).map_err(|_| too_large)?,
-            start: u16::try_from(start).map_err(|_| too_large)?,
-            likelihoods: false,
-            elsewhere: None,
-        };
+        let counted = u8::try_from(options).map_err(|_| too_large)?;
         self.bytes
             .resize(start.saturating_add(more), quantise(ELSEWHERE))
             .map_err(|_| too_large)?;
+        let place = Place::new(modality, category, counted);
         if self.places.push(place).is_err() {
             self.bytes.truncate(start);
             return Err(too_large);
@@ -192,10 +176,7 @@ impl<const B: usize> Sensors<B> {
     /// The tables, without their capacity.
     #[must_use]
     pub fn view(&self) -> Tables<'_> {
-        Tables {
-            places: &self.places,
-            bytes: &self.bytes,
-        }
+        Tables::new(&self.places, &self.bytes)
     }
 }
 
@@ -206,101 +187,6 @@ fn check(modality: u8) -> Result<(), SensorError> {
     Err(SensorError::UnknownModality {
         capacity: MODALITIES as u8,
     })
-}
-
-/// What the figures of a word are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sensor<'a> {
-    /// Scores, to be explained by what is reported when an option is meant, and by noise.
-    Scores(Rows<'a>),
-    /// How likely what was seen is under each option.
-    Likelihoods,
-}
-
-/// The tables of some [`Sensors`].
-#[derive(Clone, Copy, Debug)]
-pub struct Tables<'a> {
-    places: &'a [Place],
-    bytes: &'a [u8],
-}
-
-impl<'a> Tables<'a> {
-    /// No tables at all.
-    pub const NONE: Self = Self {
-        places: &[],
-        bytes: &[],
-    };
-
-    fn place(&self, modality: u8, category: Category) -> Option<Place> {
-        let is = |place: &&Place| place.modality == modality && place.category == category;
-        self.places.iter().find(is).copied()
-    }
-
-    /// What a modality reports of a category of `options` options.
-    #[must_use]
-    pub fn sensor(&self, modality: u8, category: Category, options: usize) -> Sensor<'a> {
-        match self.place(modality, category) {
-            Some(place) if place.likelihoods => Sensor::Likelihoods,
-            _ => Sensor::Scores(self.rows(modality, category, options)),
-        }
-    }
-
-    /// The table of a modality for a category of `options` options; that of a plain sensor when there
-    /// is none that fits.
-    #[must_use]
-    pub fn rows(&self, modality: u8, category: Category, options: usize) -> Rows<'a> {
-        self.place(modality, category)
-            .filter(|place| usize::from(place.options) == options)
-            .and_then(|place| {
-                let start = usize::from(place.start);
-                let end = start.saturating_add(options.saturating_mul(options));
-                Some(Rows {
-                    bytes: self.bytes.get(start..end)?,
-                    options,
-                    elsewhere: place.elsewhere,
-                })
-            })
-            .unwrap_or(Rows {
-                bytes: &[],
-                options,
-                elsewhere: Some(const { quantise(ELSEWHERE) }),
-            })
-    }
-}
-
-/// One table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rows<'a> {
-    /// Row after row, in 255ths; empty of a sensor that is not known, which reports 255 of what is
-    /// meant.
-    pub bytes: &'a [u8],
-    /// How many options it has.
-    pub options: usize,
-    /// What is reported of every option but the one that is meant, when that is the same of all.
-    pub elsewhere: Option<u8>,
-}
-
-impl<'a> Rows<'a> {
-    /// What is reported when option `k` is meant; empty of a sensor that is not known.
-    #[inline(always)]
-    pub(super) fn of(&self, k: usize) -> &'a [u8] {
-        let start = k.wrapping_mul(self.options);
-        let row = self.bytes.get(start..start.wrapping_add(self.options));
-        row.unwrap_or(&[])
-    }
-
-    /// What stands everywhere but on the diagonal, if that is one value.
-    fn flat(&self) -> Option<u8> {
-        let mut value = None;
-        for k in 0..self.options {
-            for (_, &byte) in self.of(k).iter().enumerate().filter(|(j, _)| *j != k) {
-                if *value.get_or_insert(byte) != byte {
-                    return None;
-                }
-            }
-        }
-        value
-    }
 }
 
 /// A likelihood in 255ths.
@@ -362,6 +248,25 @@ mod tests {
         }
         assert!(sensors.set_likelihoods(4, c).is_err());
         assert!(matches!(sensors.view().sensor(0, c, 2), Sensor::Scores(_)));
+    }
+
+    #[test]
+    fn every_category_of_every_modality_can_be_known() {
+        let mut sensors = Sensors::<256>::new();
+        for modality in 0..MODALITIES as u8 {
+            for q in 0..TABLES / MODALITIES {
+                let category = Category::from_index(q).unwrap();
+                let row = [modality, q as u8];
+                sensors.set_row(modality, category, 1, &row).unwrap();
+            }
+        }
+        for modality in 0..MODALITIES as u8 {
+            for q in 0..TABLES / MODALITIES {
+                let category = Category::from_index(q).unwrap();
+                let rows = sensors.view().rows(modality, category, 2);
+                assert_eq!(rows.of(1), [modality, q as u8]);
+            }
+        }
     }
 
     #[test]

@@ -9,9 +9,9 @@
 //! On a Cortex-M4F an element costs about 25 instructions per option, and 20 more where it may be
 //! raised.
 
-use super::cost::{Bar, Costs, MOST};
+use super::cost::{Costs, MOST};
+use super::element::{Element, Seen};
 use super::sensors::Rows;
-use super::tables::{LINES, Line};
 use crate::math::larger;
 use crate::vocabulary::Action;
 
@@ -35,54 +35,6 @@ pub const DEAREST: u16 = 0x0fff;
 /// Elements that stay below [`MOST`] together.
 const FEW: usize = 54;
 
-/// An element of a word, ready to be explained.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
-    /// In 255ths.
-    seen: u8,
-    /// Costs by error; of 0 and 1, where clipping gathers all that lies beyond, others than of what
-    /// lies between. Not a mere reference, since what is all zeros in memory must be an element.
-    line: Option<&'static Line>,
-    /// The categories that its action takes.
-    signature: u32,
-    /// What it costs when it is named itself.
-    own: Costs,
-    /// What it costs as a scattered rival, or of a flat sensor, when another is named.
-    other: Bar,
-    /// The same of an action whose signature is raised, when one of another is named.
-    raised: Bar,
-}
-
-impl Element {
-    /// Of no word.
-    pub const NONE: Self = Self {
-        seen: 0,
-        line: None,
-        signature: 0,
-        own: Costs::ZERO,
-        other: Bar::ZERO,
-        raised: Bar::ZERO,
-    };
-
-    /// Reads a likelihood of which `expected` would be reported were it named.
-    #[inline(always)]
-    fn read(&mut self, likelihood: f32, expected: u8) {
-        self.seen = (likelihood * 255.0 + 0.5) as u32 as u8;
-        let at_end = self.seen.wrapping_add(1) < 2;
-        let [between, end] = &LINES;
-        self.line = Some(if at_end { end } else { between });
-        self.own = self.cost(expected);
-    }
-
-    /// What it costs when this is expected.
-    #[inline(always)]
-    fn cost(&self, expected: u8) -> Costs {
-        let error = self.seen.abs_diff(expected);
-        let cost = self.line.and_then(|line| line.get(usize::from(error)));
-        cost.copied().unwrap_or(Costs::ZERO)
-    }
-}
-
 /// Room to work on a word.
 pub struct Room<'a> {
     /// One per option.
@@ -91,7 +43,7 @@ pub struct Room<'a> {
     pub sums: &'a mut [Costs],
     /// Those with other signatures raised.
     pub raised: &'a mut [Costs],
-    /// What its own element costs every option; added to. Empty where nobody wants to know.
+    /// What its own element costs every option; added to.
     pub named: &'a mut [Costs],
 }
 
@@ -110,46 +62,72 @@ pub struct Reading<'a> {
     pub first: bool,
 }
 
-impl Reading<'_> {
-    /// Reads every element, and what it costs when it is named itself and when it is not; gives the
-    /// sum of the latter. Of a sensor that is not flat only rivals are known here.
+impl<'a> Reading<'a> {
+    /// What is reported of every option when it is meant itself.
     #[inline(always)]
-    fn prepare(&self, room: &mut Room<'_>, rival: Costs, raises: bool) -> Costs {
+    fn expected(&self) -> impl Iterator<Item = u8> + use<'a> {
+        let (bytes, step) = (self.rows.bytes, self.likelihoods.len().wrapping_add(1));
         let mut diagonal = 0_usize;
-        let next = self.likelihoods.len().wrapping_add(1);
-        let mut named = room.named.iter_mut();
-        let mut read = |element: &mut Element, likelihood: f32| {
-            let expected = self.rows.bytes.get(diagonal).copied();
-            diagonal = diagonal.wrapping_add(next);
-            element.read(likelihood, expected.unwrap_or(u8::MAX));
-            if let Some(named) = named.next() {
-                put(named, element.own, self.first);
-            }
-        };
+        core::iter::from_fn(move || {
+            let expected = bytes.get(diagonal).copied();
+            diagonal = diagonal.wrapping_add(step);
+            Some(expected.unwrap_or(u8::MAX))
+        })
+    }
+
+    /// Reads every element of a flat sensor, which reports `elsewhere` of all but what is meant; gives
+    /// what they cost when none is named.
+    #[inline(always)]
+    fn prepare_flat(
+        &self,
+        elsewhere: u8,
+        elements: &mut [Element],
+        named: &mut [Costs],
+        rival: Costs,
+        raises: bool,
+    ) -> Costs {
         let mut sum = Costs::ZERO;
-        let elements = room.elements.iter_mut().zip(self.likelihoods);
-        if let Some(elsewhere) = self.rows.elsewhere {
-            for (element, &likelihood) in elements {
-                read(element, likelihood);
-                let cost = element.cost(elsewhere);
-                let other = cost.least(element.own.plus(rival));
-                element.other = other.bar();
-                sum = sum.plus(other);
-                if raises {
-                    let raised = cost.plus(NOT_RAISED).least(element.own.plus(RAISED));
-                    element.raised = raised.bar();
-                }
+        let elements = elements.iter_mut().zip(self.likelihoods);
+        let elements = elements.zip(named).zip(self.expected());
+        for (((element, &likelihood), named), expected) in elements {
+            let seen = Seen::new(likelihood);
+            let (own, cost) = (seen.cost(expected), seen.cost(elsewhere));
+            let other = cost.least(own.plus(rival));
+            element.own = own;
+            element.other = other.bar();
+            if raises {
+                let raised = cost.plus(NOT_RAISED).least(own.plus(RAISED));
+                element.raised = raised.bar();
             }
-        } else {
-            for (element, &likelihood) in elements {
-                read(element, likelihood);
-                let other = element.own.plus(rival);
-                element.other = other.bar();
-                sum = sum.plus(other);
-                if raises {
-                    element.raised = element.own.plus(RAISED).bar();
-                }
+            put(named, own, self.first);
+            sum = sum.plus(other);
+        }
+        sum
+    }
+
+    /// Reads every element of a sensor that is not flat; gives what they cost when they are named
+    /// themselves.
+    #[inline(always)]
+    fn prepare(
+        &self,
+        elements: &mut [Element],
+        named: &mut [Costs],
+        rival: Costs,
+        raises: bool,
+    ) -> Costs {
+        let mut sum = Costs::ZERO;
+        let elements = elements.iter_mut().zip(self.likelihoods);
+        let elements = elements.zip(named).zip(self.expected());
+        for (((element, &likelihood), named), expected) in elements {
+            let seen = Seen::new(likelihood);
+            let own = seen.cost(expected);
+            element.seen = seen;
+            element.other = own.plus(rival).bar();
+            if raises {
+                element.raised = NOT_RAISED.below(own.plus(RAISED).bar()).bar();
             }
+            put(named, own, self.first);
+            sum = sum.plus(own);
         }
         sum
     }
@@ -158,26 +136,32 @@ impl Reading<'_> {
 /// Adds a parameter word's costs to what was heard.
 #[inline(never)]
 pub fn parameter(reading: &Reading<'_>, room: &mut Room<'_>, heard: &mut [Costs]) {
-    let all = reading.prepare(room, RIVAL, false);
-    let few = room.elements.len() <= FEW;
     let mut best = Costs::all(MOST);
-    for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
-        let k = usize::from(k);
-        let mut sum = all;
-        if reading.rows.elsewhere.is_some() {
-            if let Some(named) = room.elements.get(k) {
+    if let Some(elsewhere) = reading.rows.elsewhere {
+        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL, false);
+        for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
+            let mut sum = all;
+            if let Some(named) = room.elements.get(usize::from(k)) {
                 sum = sum.minus(named.other.costs()).plus(named.own);
             }
-        } else {
-            for (element, &expected) in room.elements.iter().zip(reading.rows.of(k)) {
-                sum = sum.minus(element.cost(expected).below(element.other));
+            sum = bounded(sum, room.elements);
+            best = best.least(sum);
+            *place = sum;
+        }
+    } else {
+        let own = reading.prepare(room.elements, room.named, RIVAL, false);
+        let all = own.plus(RIVAL.times(room.elements.len()));
+        for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
+            let mut sum = all;
+            let row = reading.rows.of(usize::from(k));
+            for (element, &expected) in room.elements.iter().zip(row) {
+                let cost = element.seen.cost(expected);
+                sum = sum.minus(cost.below(element.other));
             }
+            sum = bounded(sum, room.elements);
+            best = best.least(sum);
+            *place = sum;
         }
-        if !few {
-            sum = bounded(sum);
-        }
-        best = best.least(sum);
-        *place = sum;
     }
     let floor = Costs::all(best.lowest());
     add(reading, room.sums, best, floor, heard);
@@ -193,81 +177,99 @@ pub fn action(
     heard: &mut [Costs],
     heard_raised: &mut [Costs],
 ) {
-    let all = reading.prepare(room, RIVAL_ACTION, true);
-    let few = room.elements.len() <= FEW;
-    for (element, action) in room.elements.iter_mut().zip(actions) {
-        element.signature = action.signature.compulsory.0;
-    }
     let (mut best, mut best_raised) = (Costs::all(MOST), Costs::all(MOST));
     let (mut of, mut beside) = (None, Costs::ZERO);
     let sums = room.sums.iter_mut().zip(&mut *room.raised);
-    for (&k, (plain, raised)) in reading.live.iter().zip(sums) {
-        let k = usize::from(k);
-        let Some(named) = room.elements.get(k) else {
-            continue;
-        };
-        let signature = named.signature;
-        if of != Some(signature) {
-            of = Some(signature);
-            beside = Costs::ZERO;
-            for element in room.elements.iter() {
-                let other = if element.signature == signature {
-                    element.other
-                } else {
-                    element.raised
-                };
-                beside = beside.plus(other.costs());
+    let live = reading.live.iter().zip(sums);
+    if let Some(elsewhere) = reading.rows.elsewhere {
+        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL_ACTION, true);
+        for (&k, (plain, raised)) in live {
+            let k = usize::from(k);
+            let (Some(named), Some(action)) = (room.elements.get(k), actions.get(k)) else {
+                continue;
+            };
+            let signature = action.signature.compulsory;
+            if of != Some(signature) {
+                of = Some(signature);
+                beside = Costs::ZERO;
+                for (element, action) in room.elements.iter().zip(actions) {
+                    let other = if action.signature.compulsory == signature {
+                        element.other
+                    } else {
+                        element.raised
+                    };
+                    beside = beside.plus(other.costs());
+                }
             }
+            let swapped = |all: Costs| all.minus(named.other.costs()).plus(named.own);
+            let (sum, other) = (swapped(all), swapped(beside));
+            (*plain, *raised) = (bounded(sum, room.elements), bounded(other, room.elements));
+            (best, best_raised) = (best.least(*plain), best_raised.least(*raised));
         }
-        let (mut sum, mut other) = (all, beside);
-        if reading.rows.elsewhere.is_some() {
-            let more = named.own;
-            sum = sum.minus(named.other.costs()).plus(more);
-            other = other.minus(named.other.costs()).plus(more);
-        } else {
-            for (element, &expected) in room.elements.iter().zip(reading.rows.of(k)) {
-                let cost = element.cost(expected);
+    } else {
+        let own = reading.prepare(room.elements, room.named, RIVAL_ACTION, true);
+        let all = own.plus(RIVAL_ACTION.times(room.elements.len()));
+        for (&k, (plain, raised)) in live {
+            let k = usize::from(k);
+            let Some(action) = actions.get(k) else {
+                continue;
+            };
+            let signature = action.signature.compulsory;
+            if of != Some(signature) {
+                of = Some(signature);
+                let of_it = |action: &&Action| action.signature.compulsory == signature;
+                let same = actions.iter().filter(of_it).count();
+                let others = actions.len().saturating_sub(same);
+                beside = own
+                    .plus(RIVAL_ACTION.times(same))
+                    .plus(RAISED.times(others));
+            }
+            let (mut sum, mut other) = (all, beside);
+            let row = room.elements.iter().zip(reading.rows.of(k)).zip(actions);
+            for ((element, &expected), action) in row {
+                let cost = element.seen.cost(expected);
                 let below = cost.below(element.other);
                 sum = sum.minus(below);
-                other = other.minus(if element.signature == signature {
+                other = other.minus(if action.signature.compulsory == signature {
                     below
                 } else {
-                    cost.plus(NOT_RAISED).below(element.raised)
+                    cost.below(element.raised)
                 });
             }
+            (*plain, *raised) = (bounded(sum, room.elements), bounded(other, room.elements));
+            (best, best_raised) = (best.least(*plain), best_raised.least(*raised));
         }
-        if !few {
-            (sum, other) = (bounded(sum), bounded(other));
-        }
-        (best, best_raised) = (best.least(sum), best_raised.least(other));
-        (*plain, *raised) = (sum, other);
     }
     let floor = Costs::all(best.least(best_raised).lowest());
     add(reading, room.sums, best, floor, heard);
     add(reading, room.raised, best_raised, floor, heard_raised);
 }
 
-/// Costs that [`Costs::least`] can compare.
-fn bounded(costs: Costs) -> Costs {
+/// The sum of so many elements, so that [`Costs::least`] can compare it.
+#[inline(always)]
+fn bounded(costs: Costs, elements: &[Element]) -> Costs {
+    if elements.len() <= FEW {
+        return costs;
+    }
     Costs::new(costs.lanes().map(|cost| cost.min(MOST)))
 }
 
 /// Adds costs of which `best` are the least. No option is less likely than that the word is about
 /// another one; `floor`, which all have, is left out.
-#[inline(never)]
+#[inline(always)]
 fn add(reading: &Reading<'_>, sums: &[Costs], best: Costs, floor: Costs, heard: &mut [Costs]) {
     let most = u32::from(floor.lowest()).saturating_add(u32::from(DEAREST));
     let most = most.min(u32::from(MOST)) as u16;
     let limit = best.least(Costs::all(most.saturating_sub(CLASH)));
-    let limit = limit.plus(Costs::all(CLASH)).bar();
-    for (&k, sum) in reading.live.iter().zip(sums) {
-        let mut cost = limit.costs().minus(sum.below(limit)).minus(floor);
+    let limit = limit.plus(Costs::all(CLASH));
+    let (bar, dearest) = (limit.bar(), limit.minus(floor));
+    let sums = sums.get(..reading.live.len()).unwrap_or(sums);
+    for (heard, sum) in heard.iter_mut().zip(sums) {
+        let mut cost = dearest.minus(sum.below(bar));
         if reading.weight != 256 {
             cost = cost.weighed(reading.weight).least(Costs::all(DEAREST));
         }
-        if let Some(heard) = heard.get_mut(usize::from(k)) {
-            put(heard, cost, reading.first);
-        }
+        put(heard, cost, reading.first);
     }
 }
 
