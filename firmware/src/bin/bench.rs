@@ -50,6 +50,8 @@ fn main() -> ! {
             hprintln!("instructions say{} {}", name, say);
             hprintln!("instructions hear{} {}", name, hear);
         }
+        let most = largest(BENCH, &mut counter);
+        hprintln!("instructions joint-largest {}", most);
         HAND.prepare();
         hprintln!("instructions hand {}", worst_frame(HAND, &mut counter));
         debug::exit(debug::EXIT_SUCCESS);
@@ -64,6 +66,22 @@ fn main() -> ! {
 fn decide(bench: &mut Bench, profile: &Profile) {
     let decision = bench.decide(black_box(profile));
     black_box(decision.is_ok());
+}
+
+/// Samples of `deictic-bits` that the joint model decides.
+const SAMPLES: u32 = 512;
+
+/// The most that a joint decision costs among situations of all kinds: vocabularies of their own, two or three modalities,
+/// words that are missing, faint, clipped or of uncertain category.
+fn largest(bench: &mut Bench, counter: &mut Counter) -> u32 {
+    let mut largest = 0;
+    for sample in 0..SAMPLES {
+        bench.sample(sample);
+        largest = counter
+            .instructions(|| decide(bench, &Profile::JOINT))
+            .max(largest);
+    }
+    largest
 }
 
 /// The most that reading one frame costs, from the first byte on the sensor's line to all that follows from it, be it a
