@@ -6,14 +6,15 @@
 //! scene, requirements ─ survey ┴─ posterior ── belief ── outcome ── Decision
 //! ```
 //!
-//! * [`word`]: how well an option explains a word, at each of [`LEVELS`] noise levels, with rivals
-//!   (options that are raised beside the one that was meant). Whole numbers: see [`cost`].
+//! * [`word`] and its [`element`]s: how well an option explains a word, at each of [`LEVELS`] noise
+//!   levels, with rivals (options that are raised beside the one that was meant). Whole numbers: see
+//!   [`cost`].
 //! * [`sensors`]: learned confusion tables; without one a plain sensor is assumed. A sensor may also
 //!   say by itself how likely what it saw is under each option; nothing of that is noise then.
 //! * [`fit`]: how well a thing meets a requirement, as the product of its feature likelihoods; and
 //!   how well the words' presence fits an action's signature.
-//! * [`survey`]: which actions are weighed, and which things fit them how well. Actions that take a
-//!   kind of thing alike share one row of fits.
+//! * [`survey`]: which actions are weighed; [`fits`]: which things fit them how well. Actions that take
+//!   a kind of thing alike share one row of fits.
 //! * [`posterior`]: at each [`level`] the posterior is a product of one factor per category, so that
 //!   it costs rows times options and never actions times objects times storages.
 //! * [`belief`]: the posterior and the noise that was heard, as a confidence that means what it says
