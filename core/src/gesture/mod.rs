@@ -8,6 +8,7 @@
 //! [`reader::HandReader`] runs all of it: one sample in, at most one [`context::Event`] out.
 
 mod bits;
+pub mod calibration;
 pub mod context;
 pub mod counters;
 pub mod curl;

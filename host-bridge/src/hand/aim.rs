@@ -6,9 +6,10 @@
 
 use std::path::Path;
 
+use deictic_core::gesture::calibration::Calibration;
 use deictic_core::gesture::context::Context;
 use deictic_core::gesture::mapping::Mapping;
-use deictic_core::gesture::pointing::{Aim, Calibration, Mount, Ray, miss, ray};
+use deictic_core::gesture::pointing::{Aim, Mount, Ray, miss, ray};
 use deictic_core::gesture::reader::HandReader;
 use deictic_core::gesture::shape::Shape;
 use deictic_core::gesture::stroke::Templates;

@@ -21,6 +21,7 @@ pub mod anatomy;
 mod examples;
 mod fitting;
 pub mod learning;
+mod letters;
 pub mod meaning;
 pub mod movement;
 pub mod posture;
