@@ -21,6 +21,10 @@ use crate::time::Micros;
 /// of 92 %.
 const RATHER: f32 = 0.4;
 
+/// A movement that stands for stop does so when it is likelier than all else together: standing still is safe. Of
+/// made-up people's waves 99.0 % exceed this, 94 % would exceed 0.9; of 8,000 swipes and circles none does.
+const STOPS: f32 = 0.5;
+
 impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
     /// Puts the open word into the sentence. A word too many is dropped: no action has so many
     /// parameters.
@@ -194,9 +198,8 @@ impl<const N: usize, const C: usize, const W: usize> HandReader<N, C, W> {
             .mapping
             .share(&[], &likely.gestures, &mut likelihoods);
         if context.vocabulary.stop() == Some(action) {
-            // What is as clear as a shape must be to fire.
-            let clear = *p > Settings::DEFAULT.on;
-            return clear.then(|| self.stop(&likelihoods, context)).flatten();
+            let stops = *p > STOPS;
+            return stops.then(|| self.stop(&likelihoods, context)).flatten();
         }
         if self.is_named(action) {
             return self.close(context);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use deictic_eval::gestures::sessions::Bench;
-use deictic_eval::gestures::{dynamics, hands, statics};
+use deictic_eval::gestures::{dynamics, hands, statics, telling};
 use serde_json::Value;
 
 fn eval(arguments: &[&str]) -> Output {
@@ -111,7 +111,7 @@ fn recorded_shapes_are_told_and_so_are_other_peoples() {
         ("gun right", &["point"]),
         ("wave right", &["five"]),
     ] {
-        let told = statics::tell(network, &recordings[recording]);
+        let told = telling::tell(network, &recordings[recording]);
         assert_eq!(told.order, order, "{recording}");
     }
     let hands::Hands::Labelled(labelled) = hands::read(&shapes).unwrap() else {
@@ -126,7 +126,7 @@ fn recorded_shapes_are_told_and_so_are_other_peoples() {
 
 #[test]
 fn whole_sessions_are_read_but_for_things_that_lie_side_by_side() {
-    let score = Bench::new().unwrap().score(5_000, 200, 0.035);
+    let score = Bench::new().unwrap().score(5_000, 200, 0.035, None);
     let near = "pointing at one thing taken for another near to it";
     let wrong: usize = score
         .causes
@@ -136,4 +136,21 @@ fn whole_sessions_are_read_but_for_things_that_lie_side_by_side() {
         .sum();
     assert!(wrong <= 12, "{score:?}");
     assert!(score.accuracy >= 86.0, "{score:?}");
+}
+
+#[test]
+fn a_wave_stops_and_nothing_else_does() {
+    let bench = Bench::new().unwrap();
+    assert!(bench.of("wave moon").is_none());
+    let wave = bench.of("wave").unwrap();
+    let waved = bench.score(7_000, 200, 0.035, Some(&wave));
+    assert!(waved.accuracy >= 97.0, "{waved:?}");
+    for other in ["swipe-right", "swipe-left", "circle", "thumbsup cup drawer"] {
+        let Some(script) = bench.of(other) else {
+            continue;
+        };
+        let score = bench.score(7_000, 200, 0.035, Some(&script));
+        let stopped = score.causes.get("stopped without a stop gesture");
+        assert!(stopped.is_none(), "{other}: {stopped:?}");
+    }
 }

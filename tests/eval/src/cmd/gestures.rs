@@ -8,7 +8,7 @@ use clap::Subcommand;
 use deictic_core::gesture::shape::Shape;
 use deictic_eval::gestures::hands::{self, Hands, Labelled};
 use deictic_eval::gestures::sessions::Bench;
-use deictic_eval::gestures::{dynamics, statics};
+use deictic_eval::gestures::{dynamics, statics, telling};
 use serde::Serialize;
 
 /// Train and score what the unit knows of hands.
@@ -67,7 +67,7 @@ struct Static {
 #[derive(Serialize)]
 struct Told {
     n: usize,
-    recordings: BTreeMap<String, statics::Told>,
+    recordings: BTreeMap<String, telling::Told>,
 }
 
 fn labelled(file: &std::path::Path) -> anyhow::Result<Vec<Labelled>> {
@@ -111,7 +111,7 @@ impl Static {
             n: recordings.values().map(Vec::len).sum(),
             recordings: recordings
                 .iter()
-                .map(|(name, frames)| (name.clone(), statics::tell(&network, frames)))
+                .map(|(name, frames)| (name.clone(), telling::tell(&network, frames)))
                 .collect(),
         };
         if self.json {
@@ -253,7 +253,7 @@ impl Strokes {
 /// Whole gesture sessions of made-up people: what share says what was meant, and why others do not.
 ///
 /// Everyone shows a sentence by chance with the gestures of deictic's own vocabulary, and points at the things of its
-/// own table. Another seed, other people.
+/// own table, or everyone shows the same. Another seed, other people.
 #[derive(clap::Args)]
 struct Sessions {
     /// How many
@@ -265,6 +265,9 @@ struct Sessions {
     /// Standard deviation by which they miss what they point at, degrees
     #[arg(long, default_value_t = 2.0, value_name = "DEGREES")]
     aim: f64,
+    /// What everyone shows: gestures and things, as "thumbsup cup drawer"
+    #[arg(long, value_name = "WORDS")]
+    show: Option<String>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -272,7 +275,16 @@ struct Sessions {
 
 impl Sessions {
     fn run(self) -> anyhow::Result<()> {
-        let score = Bench::new()?.score(self.seed, self.people, self.aim.to_radians());
+        let bench = Bench::new()?;
+        let shown = self.show.as_deref().map(|text| {
+            let script = bench.of(text);
+            script.with_context(|| {
+                format!("\"{text}\" holds a word that is no gesture and no thing on the table")
+            })
+        });
+        let shown = shown.transpose()?;
+        let aim = self.aim.to_radians();
+        let score = bench.score(self.seed, self.people, aim, shown.as_ref());
         if self.json {
             return super::print_json(&score);
         }

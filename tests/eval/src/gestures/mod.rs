@@ -10,3 +10,4 @@ pub mod hands;
 pub mod network;
 pub mod sessions;
 pub mod statics;
+pub mod telling;

@@ -68,7 +68,8 @@ pub struct Bench {
 }
 
 /// What a person is to show, and what it means.
-struct Script {
+#[derive(Clone, Debug)]
+pub struct Script {
     text: String,
     meant: Vec<Word>,
     /// Whether the stop gesture is in it.
@@ -98,12 +99,13 @@ impl Bench {
         })
     }
 
-    /// Sessions of `n` people, the first of them this one, who miss what they point at by `aim` rad.
+    /// Sessions of `n` people, the first of them this one, who miss what they point at by `aim` rad and show all the
+    /// same, or what chance tells each of them to.
     #[must_use]
-    pub fn score(&self, first: u64, n: usize, aim: f64) -> Score {
+    pub fn score(&self, first: u64, n: usize, aim: f64, shown: Option<&Script>) -> Score {
         let wrong: Vec<(String, String)> = (first..first + n as u64)
             .into_par_iter()
-            .filter_map(|seed| self.wrong(seed, aim))
+            .filter_map(|seed| self.wrong(seed, aim, shown))
             .collect();
         let mut score = Score {
             accuracy: 100.0 * (n - wrong.len()) as f64 / n.max(1) as f64,
@@ -118,6 +120,37 @@ impl Bench {
             }
         }
         score
+    }
+
+    /// What these gestures and things mean, in their order; `None` for a word that is neither.
+    #[must_use]
+    pub fn of(&self, text: &str) -> Option<Script> {
+        let words = text.split_whitespace();
+        let meant = words.map(|word| self.meaning(word)).collect::<Option<_>>();
+        let script = Script {
+            text: text.split_whitespace().collect::<Vec<_>>().join(" "),
+            meant: meant?,
+            stops: false,
+        };
+        let stop = self.lexicon.vocabulary().stop();
+        let stops = script
+            .meant
+            .iter()
+            .any(|w| w.0 == Category::ACTION && Some(w.1) == stop);
+        Some(Script { stops, ..script })
+    }
+
+    fn meaning(&self, word: &str) -> Option<Word> {
+        let actions = self.lexicon.entries(Category::ACTION).iter().zip(0_u8..);
+        let mut meant = actions.filter(|(entry, _)| entry.gestures.iter().any(|g| g == word));
+        if let Some((_, action)) = meant.next() {
+            return Some((Category::ACTION, action));
+        }
+        let thing = |category| Some((category, self.lexicon.option(category, word)?));
+        [Category::OBJECT, Category::STORAGE]
+            .into_iter()
+            .filter_map(thing)
+            .find(|(category, option)| self.table.find(*category, *option).is_some())
     }
 
     /// A sentence by chance: an action by one of its gestures, before or after the things it takes.
@@ -168,9 +201,9 @@ impl Bench {
     }
 
     /// What went wrong with a person's session, and which it was.
-    fn wrong(&self, seed: u64, aim: f64) -> Option<(String, String)> {
+    fn wrong(&self, seed: u64, aim: f64, shown: Option<&Script>) -> Option<(String, String)> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let script = self.script(&mut rng);
+        let script = shown.cloned().unwrap_or_else(|| self.script(&mut rng));
         let acts = acts(&script.text, &self.table, &self.lexicon).ok()?;
         let samples = made_up(seed, self.setup.settings.mount, aim, &acts, RATE);
         let context = Context {
