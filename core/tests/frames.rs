@@ -172,6 +172,7 @@ fn hand_to_unit() -> Vec<(&'static str, ToUnit)> {
         ("hand", ToUnit::Hand(HandSettings::DEFAULT)),
         ("templates", ToUnit::Templates(templates)),
         ("ask-hand", ToUnit::AskHand),
+        ("relay", ToUnit::Relay(true)),
         (
             "prove",
             ToUnit::Prove(Proof {
@@ -243,6 +244,10 @@ fn hand_to_host() -> Vec<(&'static str, ToHost)> {
         ("hand-statistics", ToHost::HandStatistics(statistics)),
         ("challenge", ToHost::Challenge(0x0102_0304_0506_0708)),
         ("proven", ToHost::Proven),
+        (
+            "relayed",
+            ToHost::Sample(encode(&Sample::Nothing(5)).unwrap().into_iter().collect()),
+        ),
     ]
 }
 

@@ -1,3 +1,5 @@
+use deictic_core::gesture::mapping::STROKES;
+use deictic_core::gesture::stroke::Likely;
 use deictic_core::time::Micros;
 use deictic_core::unit::Statistics;
 use embedded_io::{Read, ReadReady, Write, WriteReady};
@@ -17,6 +19,17 @@ pub trait Board {
 
     /// The link to the hand sensor.
     fn sensor(&mut self) -> &mut Self::Sensor;
+
+    /// What a sensor that recognises gestures by itself has recognised ([`crate::recogniser`]). Called once a turn. A
+    /// board without such a sensor's bus leaves it.
+    fn recognised(&mut self, _now: Micros) -> Option<Likely<STROKES>> {
+        None
+    }
+
+    /// When [`Board::recognised`] has something to do again.
+    fn next_look(&self) -> Micros {
+        Micros::NEVER
+    }
 
     /// Microseconds since the board started. Never runs backwards.
     fn now(&mut self) -> Micros;

@@ -25,6 +25,8 @@ mod board;
 pub mod can;
 mod key;
 pub mod paj7620;
+pub mod recogniser;
+pub mod stm32_i2c;
 mod turn;
 
 pub use board::Board;

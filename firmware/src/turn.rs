@@ -1,4 +1,5 @@
 use deictic_core::board::Unit;
+use deictic_core::time::Micros;
 use embedded_io::{Read, ReadReady, Write, WriteReady};
 
 use crate::Board;
@@ -7,7 +8,7 @@ use crate::Board;
 /// noisy link cannot keep the loop from its timers and the watchdog (at 921600 baud 64 bytes are 0.7 ms).
 const CHUNK: usize = 64;
 
-/// What one turn of the loop moved, in bytes.
+/// What one turn of the loop moved; bytes, where it says no other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Turn {
     /// Taken from the host link and given to the unit.
@@ -16,6 +17,8 @@ pub struct Turn {
     pub sent: usize,
     /// Taken from the sensor link.
     pub sensed: usize,
+    /// Whether a sensor had recognised a gesture by itself.
+    pub recognised: bool,
 }
 
 impl Turn {
@@ -26,7 +29,7 @@ impl Turn {
     }
 }
 
-/// One turn: takes at most a chunk from each link, lets the unit look at its timers, and gives the host link what it
+/// One turn: takes at most a chunk from each link and a gesture from a sensor that recognises them, lets the unit look at its timers, and gives the host link what it
 /// takes without blocking. A link that reports an error moves nothing this turn and is asked again in the next.
 pub fn turn<B: Board>(board: &mut B, unit: &mut Unit) -> Turn {
     let mut chunk = [0; CHUNK];
@@ -40,6 +43,8 @@ pub fn turn<B: Board>(board: &mut B, unit: &mut Unit) -> Turn {
     unit.sense(now, sensed);
     let sensed = sensed.len();
 
+    let recognised = recognise(board, unit, now);
+
     unit.poll(now);
     let sent = give(board.link(), unit.outgoing());
     unit.sent(sent);
@@ -49,7 +54,19 @@ pub fn turn<B: Board>(board: &mut B, unit: &mut Unit) -> Turn {
         received,
         sent,
         sensed,
+        recognised,
     }
+}
+
+/// Gives the unit what a sensor has recognised by itself, if it has. A function of its own: its stack is not that of
+/// all else in a turn.
+#[inline(never)]
+fn recognise<B: Board>(board: &mut B, unit: &mut Unit, now: Micros) -> bool {
+    let recognised = board.recognised(now);
+    if let Some(likely) = &recognised {
+        unit.recognise(likely);
+    }
+    recognised.is_some()
 }
 
 /// Turns for ever, sleeping whenever a turn moved nothing.
@@ -58,7 +75,8 @@ pub fn run<B: Board>(board: &mut B, unit: &mut Unit) -> ! {
         let done = turn(board, unit);
         board.log(done, unit.statistics());
         if done.is_idle() {
-            board.sleep(unit.next_wake());
+            let until = unit.next_wake().min(board.next_look());
+            board.sleep(until);
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use deictic_firmware::paj7620::{ADDRESS, Error, Gesture, Paj7620, likely};
 use embedded_hal::i2c::{ErrorKind, NoAcknowledgeSource};
-use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::i2c::{Mock, Transaction};
 
 const ABSENT: ErrorKind = ErrorKind::NoAcknowledge(NoAcknowledgeSource::Address);
@@ -84,12 +83,20 @@ fn settings() -> Vec<Transaction> {
     all
 }
 
+/// Steps that set a sensor up: a hello, then its settings, eight at a time.
+const STEPS: usize = 8;
+
 fn started(more: &[Transaction]) -> (Paj7620<Mock>, Mock) {
     let mut expected = vec![bank(0), part([0x20, 0x76])];
     expected.extend(settings());
     expected.extend_from_slice(more);
     let bus = Mock::new(&expected);
-    let sensor = Paj7620::start(bus.clone(), &mut NoopDelay).expect("a sensor");
+    let mut sensor = Paj7620::new(bus.clone());
+    for step in 0..STEPS {
+        assert!(!sensor.is_set_up(), "{step}");
+        assert_eq!(sensor.poll(), Ok(None), "{step}");
+    }
+    assert!(sensor.is_set_up());
     (sensor, bus)
 }
 
@@ -98,23 +105,41 @@ fn a_sleeping_sensor_is_woken_and_set_up() {
     let mut expected = vec![bank(0).with_error(ABSENT), bank(0), part([0x20, 0x76])];
     expected.extend(settings());
     let mut bus = Mock::new(&expected);
-    Paj7620::start(bus.clone(), &mut NoopDelay).expect("a sensor");
+    let mut sensor = Paj7620::new(bus.clone());
+    assert_eq!(sensor.poll(), Err(Error::Bus(ABSENT)));
+    for _ in 0..STEPS {
+        assert_eq!(sensor.poll(), Ok(None));
+    }
+    assert!(sensor.is_set_up());
     bus.done();
 }
 
 #[test]
 fn a_sensor_that_is_not_there_or_another_is_named() {
-    let mut bus = Mock::new(&[
-        bank(0).with_error(ABSENT),
-        bank(0).with_error(ABSENT),
-        bank(0).with_error(ABSENT),
-    ]);
-    let error = Paj7620::start(bus.clone(), &mut NoopDelay).err();
-    assert_eq!(error, Some(Error::Bus(ABSENT)));
+    let mut bus = Mock::new(&[bank(0).with_error(ABSENT), bank(0), part([0x34, 0x12])]);
+    let mut sensor = Paj7620::new(bus.clone());
+    assert_eq!(sensor.poll(), Err(Error::Bus(ABSENT)));
+    assert_eq!(sensor.poll(), Err(Error::OtherPart(0x1234)));
+    assert!(!sensor.is_set_up());
     bus.done();
-    let mut bus = Mock::new(&[bank(0), part([0x34, 0x12])]);
-    let error = Paj7620::start(bus.clone(), &mut NoopDelay).err();
-    assert_eq!(error, Some(Error::OtherPart(0x1234)));
+}
+
+#[test]
+fn a_sensor_that_was_lost_is_set_up_anew() {
+    let mut more = vec![
+        Transaction::write_read(ADDRESS, vec![0x43], vec![0, 0]).with_error(ABSENT),
+        bank(0),
+        part([0x20, 0x76]),
+    ];
+    more.extend(settings());
+    more.push(flags(1, 0));
+    let (mut sensor, mut bus) = started(&more);
+    assert_eq!(sensor.poll(), Err(Error::Bus(ABSENT)));
+    assert!(!sensor.is_set_up());
+    for _ in 0..STEPS {
+        assert_eq!(sensor.poll(), Ok(None));
+    }
+    assert_eq!(sensor.poll(), Ok(Some(Gesture::Up)));
     bus.done();
 }
 

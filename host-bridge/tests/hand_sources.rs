@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use deictic::hand::session::{Act, made_up};
 use deictic::hand::source::recording::{self, Recorder};
-use deictic::hand::source::{Address, Seen, Source, SourceError};
+use deictic::hand::source::{Address, Seen, Source, SourceError, leap, mediapipe};
 use deictic::scene::{SceneFile, Tabletop};
 use deictic::vocabulary::Lexicon;
 use deictic_core::gesture::frame::HandFrame;
@@ -14,7 +14,7 @@ use deictic_core::gesture::pointing::Mount;
 use deictic_core::gesture::shape::{self, Shape};
 use deictic_core::gesture::shape_table::NETWORK;
 use deictic_core::gesture::vector;
-use deictic_core::gesture::wire::Sample;
+use deictic_core::gesture::wire::{Sample, WireError};
 use serde_json::{Value, json};
 use tungstenite::Message;
 
@@ -223,6 +223,63 @@ fn mediapipes_landmarks_are_read_from_a_server() {
     );
     let p = NETWORK.classify(&shape::features(first).unwrap());
     assert!(p[Shape::Pinch as usize] > 0.5, "{p:?}");
+}
+
+/// A frame of a hand in the middle of what a person does.
+fn shown() -> HandFrame {
+    let hands = person().into_iter().filter_map(|s| match s {
+        Sample::Hand(frame) => Some(frame),
+        Sample::Nothing(_) => None,
+    });
+    hands.skip(100).next().unwrap()
+}
+
+#[test]
+fn numbers_that_cannot_be_are_named_and_fingers_that_are_missing_are_missing() {
+    let bad = |seen: Vec<Result<Sample, SourceError>>| {
+        assert!(
+            matches!(
+                &seen[..],
+                [Err(SourceError::Unsound {
+                    number: 1,
+                    error: WireError::Frame(_)
+                })]
+            ),
+            "{seen:?}"
+        );
+    };
+    let sound = leap_json(&Sample::Hand(shown()));
+    for (field, value) in [
+        // Beyond what 32-bit floats hold; JSON has no NaN.
+        ("palmPosition", json!([1e39, 0, 0])),
+        ("palmVelocity", json!([0, -1e39, 0])),
+        ("palmNormal", json!([0, 0, 0])),
+        ("confidence", json!(2)),
+    ] {
+        let mut message = sound.clone();
+        message["hands"][0][field] = value;
+        bad(leap::samples(1, &message.to_string()));
+    }
+    let mut message = sound.clone();
+    message["pointables"][3]["tipPosition"] = json!([9e3, 0, 0]);
+    bad(leap::samples(1, &message.to_string()));
+    let mut landmarks = mediapipe_json(&shown(), 0.0, 0.5);
+    landmarks["hands"][0]["world_landmarks"][8] = json!([1e39, 0, 0]);
+    bad(mediapipe::Reader::default().read(landmarks.to_string().as_bytes()));
+
+    // A finger that the sensor does not follow, and a second hand with none.
+    let mut message = sound;
+    message["pointables"].as_array_mut().unwrap().remove(1);
+    let mut other = message["hands"][0].clone();
+    other["id"] = json!(8);
+    message["hands"].as_array_mut().unwrap().push(other);
+    let seen = leap::samples(1, &message.to_string());
+    let [Ok(Sample::Hand(first)), Ok(Sample::Hand(second))] = &seen[..] else {
+        panic!("{seen:?}");
+    };
+    let followed = |frame: &HandFrame| frame.fingers.map(|f| f.is_some());
+    assert_eq!(followed(first), [true, false, true, true, true]);
+    assert_eq!(followed(second), [false; 5]);
 }
 
 #[test]

@@ -32,7 +32,7 @@ impl Emulated {
     #[must_use]
     pub fn boot() -> Self {
         Self {
-            host: link::open(&Address::Qemu).expect("the board boots"),
+            host: link::open(&Address::Qemu { sensor: None }).expect("the board boots"),
             sensor: None,
         }
     }

@@ -8,5 +8,6 @@ pub mod host;
 pub mod method;
 pub mod network;
 pub mod painted;
+pub mod sensing;
 pub mod soak;
 pub mod stillness;

@@ -41,9 +41,11 @@ impl SensorLine {
 
     /// Takes one byte, and gives what it completes.
     pub fn push(&mut self, byte: u8) -> Option<Result<Sample, WireError>> {
-        Some(match self.reader.push(byte)? {
-            Ok(payload) => decode(payload),
-            Err(error) => Err(WireError::Framing(error)),
-        })
+        Some(self.take(byte)?.and_then(decode))
+    }
+
+    /// Takes one byte, and gives the bytes of the sample that it completes, whatever they say.
+    pub fn take(&mut self, byte: u8) -> Option<Result<&[u8], WireError>> {
+        Some(self.reader.push(byte)?.map_err(WireError::Framing))
     }
 }

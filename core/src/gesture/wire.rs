@@ -116,10 +116,12 @@ pub fn encode(sample: &Sample) -> Result<[u8; PAYLOAD], WireError> {
     Ok(out.bytes)
 }
 
-/// Reads a sample from its 88 bytes.
+/// Reads a sample from its 88 bytes. Never part of its caller, whose stack what it works with would lie on for as long as
+/// the sample is looked at.
 ///
 /// # Errors
 /// [`WireError`] for anything that [`encode`] does not give.
+#[inline(never)]
 pub fn decode(bytes: &[u8]) -> Result<Sample, WireError> {
     let length = || WireError::Length(u8::try_from(bytes.len()).unwrap_or(u8::MAX));
     let mut input = Reader::new(bytes.try_into().map_err(|_| length())?);

@@ -35,7 +35,9 @@ pub struct Hand<const N: usize, const C: usize, const W: usize> {
     mapping: Mapping,
     pub(super) settings: HandSettings,
     pub(super) taught: Taught,
-    /// A sample that came through the host and was not read yet; empty when there is none.
+    /// Whether the host is told of samples that come from the unit's own sensor.
+    pub(super) relays: bool,
+    /// A sample that was not read yet; empty when there is none.
     pub(super) pending: SampleBytes,
     spoken: Option<Spoken>,
     /// Whether the host was told that the hand is in the middle of a sentence.
@@ -58,6 +60,7 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
             mapping: Mapping::new(),
             settings: HandSettings::DEFAULT,
             taught: Taught::new(),
+            relays: false,
             pending: SampleBytes::new(),
             spoken: None,
             told: false,
@@ -78,6 +81,7 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
         self.mapping.clear();
         self.settings = HandSettings::DEFAULT;
         self.taught.clear();
+        self.relays = false;
     }
 
     /// Forgets the hand and what it was saying.
@@ -120,7 +124,7 @@ impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
         self.taught.take(part)
     }
 
-    /// Keeps a sample that came through the host, to be read next.
+    /// Keeps a sample, to be read next.
     pub(super) fn keep_sample(&mut self, bytes: &[u8]) {
         self.pending.clear();
         if bytes.is_empty() || self.pending.extend_from_slice(bytes).is_err() {
@@ -147,20 +151,37 @@ impl<
     /// Takes bytes from the hand sensor's serial line, in pieces of any size.
     pub fn sense(&mut self, now: Micros, bytes: &[u8]) {
         for &byte in bytes {
-            self.sense_byte(now, byte);
+            self.sense_byte(byte);
             self.settle(now);
         }
     }
 
+    /// Takes a byte of the sensor's, and passes the sample on that it completes, if it is to be.
     #[inline(never)]
-    fn sense_byte(&mut self, now: Micros, byte: u8) {
-        if let Some(sample) = self.hand.line.push(byte) {
-            self.read_hand(now, &sample);
+    fn sense_byte(&mut self, byte: u8) {
+        let Hand {
+            line,
+            pending,
+            reader,
+            ..
+        } = &mut self.hand;
+        match line.take(byte) {
+            None => return,
+            Some(Err(error)) => return reader.count_error(error),
+            Some(Ok(bytes)) => {
+                pending.clear();
+                // As long as the line's own buffer, in which these were.
+                if bytes.is_empty() || pending.extend_from_slice(bytes).is_err() {
+                    return reader.count_error(WireError::Length(0));
+                }
+            }
+        }
+        if self.hand.relays && self.open {
+            self.send(&ToHost::Sample(self.hand.pending.clone()));
         }
     }
 
-    /// Reads the sample that came through the host, when the message that held it is out of the way: the
-    /// stack holds one of the two.
+    /// Reads the sample that has come, when the message that held it is out of the way: the stack holds one of the two.
     #[inline(never)]
     pub(super) fn take_sample(&mut self, now: Micros) {
         let sample = decode(&self.hand.pending);
@@ -177,10 +198,10 @@ impl<
         self.show(|reader, context| reader.take(now, sample, context));
     }
 
-    /// Takes a movement that a sensor has recognised by itself.
-    pub fn recognise(&mut self, now: Micros, likely: &Likely<STROKES>) {
+    /// Takes a movement that a sensor has recognised by itself. What comes of it comes with the next [`Unit::poll`].
+    #[inline(never)]
+    pub fn recognise(&mut self, likely: &Likely<STROKES>) {
         self.show(|reader, context| reader.recognised(likely, context));
-        self.settle(now);
     }
 
     /// Lets the reader look at something.

@@ -67,6 +67,10 @@ impl<
                 self.tell_hand();
                 Ok(())
             }
+            ToUnit::Relay(relays) => {
+                self.hand.relays = *relays;
+                Ok(())
+            }
         };
         if let Err(fault) = result {
             self.fault(fault);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | host link | LPUART1, PA2/PA3, the ST-LINK's virtual COM port, 921600 baud, 8N1 |
 //! | hand sensor | USART1, PC4 (D1) TX, PC5 (D0) RX, 115200 baud, 8N1 |
+//! | gesture sensor | I2C2, PA8 (D7) SDA, PA9 (D8) SCL, 400 kHz: a PAJ7620U2 at 3.3 V, there or not |
 //! | CAN | FDCAN1, PA11 RX, PA12 TX, clocked with 24 MHz; off the bus without the feature `can`, with it the host link at 1 Mbit/s |
 //! | log | defmt over RTT: `cargo run --release` in `firmware/` shows it |
 //!
@@ -13,19 +14,25 @@
 #[cfg(feature = "can")]
 mod can;
 mod clocks;
+mod i2c;
 mod pins;
 mod uart;
 mod watchdog;
 
 use cortex_m::peripheral::SCB;
 use cortex_m_rt::{ExceptionFrame, exception};
+use deictic_core::gesture::mapping::STROKES;
+use deictic_core::gesture::stroke::Likely;
 use deictic_core::time::Micros;
 use deictic_core::unit::Statistics;
 use stm32_metapac::DBGMCU;
 
 use crate::arm::journal::Journal;
 use crate::arm::{clock, fault, guard};
+use crate::recogniser::Recogniser;
+use crate::stm32_i2c::Controller;
 use crate::{Board, Turn};
+use i2c::I2c2;
 use uart::UartStream;
 use watchdog::Watchdog;
 
@@ -56,6 +63,7 @@ fn start_link() -> Link {
 pub struct NucleoG474Re {
     link: Link,
     sensor: UartStream,
+    recogniser: Recogniser<Controller<I2c2>>,
     watchdog: Watchdog,
     boot: u32,
     journal: Journal,
@@ -79,6 +87,7 @@ impl NucleoG474Re {
         clocks::supply_can();
         let link = start_link();
         let sensor = uart::start_sensor();
+        let recogniser = Recogniser::new(i2c::start());
         if !crystal {
             defmt::warn!("the 24 MHz crystal does not start: CAN is unusable");
         }
@@ -93,6 +102,7 @@ impl NucleoG474Re {
         Some(Self {
             link,
             sensor,
+            recogniser,
             watchdog: Watchdog::start(),
             boot,
             journal: Journal::default(),
@@ -124,6 +134,29 @@ impl Board for NucleoG474Re {
 
     fn sensor(&mut self) -> &mut UartStream {
         &mut self.sensor
+    }
+
+    fn recognised(&mut self, now: Micros) -> Option<Likely<STROKES>> {
+        let before = (self.recogniser.is_there(), self.recogniser.other());
+        let recognised = self.recogniser.look(now);
+        let after = (self.recogniser.is_there(), self.recogniser.other());
+        if after != before {
+            match after {
+                (true, _) => defmt::info!("a PAJ7620U2 is on the bus"),
+                (false, Some(part)) => {
+                    defmt::warn!("part {=u16:#06x} answers in the place of a PAJ7620U2", part)
+                }
+                (false, None) => defmt::warn!("no PAJ7620U2 on the bus any more"),
+            }
+        }
+        if recognised.is_some() {
+            defmt::info!("the PAJ7620U2 has recognised a gesture");
+        }
+        recognised
+    }
+
+    fn next_look(&self) -> Micros {
+        self.recogniser.due()
     }
 
     fn now(&mut self) -> Micros {

@@ -5,15 +5,20 @@ use std::time::Duration;
 
 use clap::Args;
 use deictic_core::category::Category;
+use deictic_core::gesture::wire::Sample;
+use deictic_core::protocol::message::Configuration;
 use miette::{IntoDiagnostic, Result, WrapErr};
 
 use super::files::Files;
 use super::sensing::drain;
 use super::{advice, paint};
 use crate::diagnose::quoted;
+use crate::explain;
 use crate::hand::aim::{Aimed, Pointings, aim, write};
 use crate::hand::source::{Address, Source};
+use crate::link;
 use crate::scene::Tabletop;
+use crate::unit::{Event, GestureUnit};
 use crate::vocabulary::Lexicon;
 
 /// Find out how one person aims
@@ -21,7 +26,12 @@ use crate::vocabulary::Lexicon;
 /// ```text
 /// $ deictic gestures aim cup can cube drawer --hand leap --scene desk.toml --out anna.aim
 /// $ deictic run --board qemu --hand leap --scene desk.toml --aim anna.aim
+///
+/// $ deictic gestures aim cup can cube drawer --board serial:/dev/ttyACM0 --out anna.aim
+/// $ deictic run --board serial:/dev/ttyACM0 --aim anna.aim
 /// ```
+///
+/// The second way is that of a sensor on the unit's own line: the unit passes on what it sees.
 ///
 /// The person points at these things of the scene, one after the other, for a second each, and closes
 /// the hand, or takes it away, in between. What is found goes in place of the scene's `[sensor]`. Three
@@ -33,8 +43,11 @@ pub(super) struct Aim {
     #[arg(value_name = "THING", required = true)]
     things: Vec<String>,
     /// The hand sensor at this machine: leap, mediapipe:FILE, file:RECORDING, or a made-up person
-    #[arg(long, value_name = "SENSOR")]
-    hand: Address,
+    #[arg(long, value_name = "SENSOR", required_unless_present = "board")]
+    hand: Option<Address>,
+    /// The unit whose own sensor sees the hand: serial:PORT@BAUD, tcp:HOST:PORT, can:INTERFACE, qemu:SENSOR-PORT
+    #[arg(long, value_name = "ADDRESS", conflicts_with = "hand")]
+    board: Option<link::Address>,
     #[command(flatten)]
     files: Files,
     /// Where to write the aim (TOML)
@@ -54,28 +67,23 @@ impl Aim {
             .iter()
             .map(|name| place(name, &table, &lexicon))
             .collect::<Result<_>>()?;
-        let source = Source::open(&self.hand, &table, &lexicon)?;
+        let mut eyes = self.open(&table, &lexicon)?;
         let mut pointings = Pointings::new(&table, &lexicon);
         let mut pointed = Vec::new();
         self.ask(0);
         let mut more = true;
         while more && pointed.len() < targets.len() {
             let before = pointed.len();
-            more = drain(
-                &source,
-                |sample| {
-                    if let (Some(ray), Some(target)) =
-                        (pointings.push(&sample), targets.get(pointed.len()))
-                    {
-                        pointed.push((ray, *target));
-                    }
-                },
-                |odd| anstream::eprintln!("{}", paint::bad(odd)),
-            );
+            more = eyes.look(|sample| {
+                if let (Some(ray), Some(target)) =
+                    (pointings.push(&sample), targets.get(pointed.len()))
+                {
+                    pointed.push((ray, *target));
+                }
+            })?;
             if pointed.len() > before {
                 self.ask(pointed.len());
             }
-            std::thread::sleep(Duration::from_millis(2));
         }
         let Aimed { settings, turned } =
             aim(table.hand(), &pointed).map_err(|e| advice(&e, e.remedy()))?;
@@ -93,10 +101,57 @@ impl Aim {
         Ok(())
     }
 
+    fn open(&self, table: &Tabletop, lexicon: &Lexicon) -> Result<Eyes> {
+        if let Some(address) = &self.hand {
+            return Ok(Eyes::Here(Source::open(address, table, lexicon)?));
+        }
+        let board = self.board.clone().unwrap_or(link::Address::Inside);
+        let configuration = Configuration::DEFAULT;
+        let (vocabulary, scene) = (lexicon.vocabulary(), table.scene());
+        let mut unit = GestureUnit::connect(&board, vocabulary, scene, configuration)?;
+        unit.relay()?;
+        Ok(Eyes::Unit(Box::new(unit)))
+    }
+
     fn ask(&self, number: usize) {
         if let Some(name) = self.things.get(number) {
             anstream::println!("point at {}, then close the hand", paint::good(name));
         }
+    }
+}
+
+/// Where samples come from.
+enum Eyes {
+    /// A sensor at this machine.
+    Here(Source),
+    /// A unit that passes on what its own sensor sends.
+    Unit(Box<GestureUnit>),
+}
+
+impl Eyes {
+    /// Takes what has come, waiting for a moment; `false` when there will be no more.
+    fn look(&mut self, mut take: impl FnMut(Sample)) -> Result<bool> {
+        let odd = |what: String| anstream::eprintln!("{}", paint::bad(what));
+        let unit = match self {
+            Self::Here(source) => {
+                let more = drain(source, take, odd);
+                std::thread::sleep(Duration::from_millis(2));
+                return Ok(more);
+            }
+            Self::Unit(unit) => unit,
+        };
+        for event in unit.poll(Duration::from_millis(5)) {
+            match event {
+                Event::Sample(sample) => take(*sample),
+                Event::Fault(fault) => odd(explain::fault(&fault).what),
+                Event::Lost(loss) => {
+                    let lost = explain::loss(&loss);
+                    return Err(advice(lost.what, lost.remedy));
+                }
+                _ => {}
+            }
+        }
+        Ok(true)
     }
 }
 

@@ -1,27 +1,26 @@
 //! `deictic hand`: what the unit sees of a hand, live.
 
-use std::io::{IsTerminal, Write};
+mod screen;
+
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use deictic_core::gesture::counters::SampleCounters;
-use deictic_core::gesture::shape::Shape;
-use deictic_core::protocol::hand::HandView;
+use deictic_core::gesture::wire::Sample;
 use deictic_core::protocol::message::Configuration;
-use miette::Result;
-use serde_json::{Value, json};
+use miette::{IntoDiagnostic, Result, WrapErr};
 
+use self::screen::Screen;
 use super::files::Files;
+use super::interrupts::interrupts;
 use super::sensing::{Sensing, drain};
 use super::{advice, paint};
 use crate::explain;
-use crate::hand::meaning::HandSetup;
-use crate::hand::source::recording::Recorder;
-use crate::link::Address;
-use crate::scene::Tabletop;
+use crate::hand::source::SourceError;
+use crate::hand::source::recording::{Recorder, framed};
+use crate::link::{Address, Line, open_line};
 use crate::unit::{Event, GestureUnit};
-use crate::vocabulary::Lexicon;
 
 /// How often the unit is asked what it sees.
 const LOOK: Duration = Duration::from_millis(100);
@@ -29,15 +28,14 @@ const LOOK: Duration = Duration::from_millis(100);
 /// How long after the last sample the unit is still asked: a hand has left after 350 ms.
 const AFTERWARDS: Duration = Duration::from_millis(1_000);
 
-/// How wide a bar of probability 1 is.
-const WIDTH: usize = 30;
-
 /// Show live what the unit sees of a hand: shapes, movements, what is pointed at, words so far
 ///
 /// ```text
 /// $ deictic hand --board qemu --hand leap
 /// $ deictic hand --board inside --hand "made-up:1:thumbsup cup drawer"
-/// $ deictic hand --board inside --hand leap --record spiral.hand
+/// $ deictic hand --hand leap --record spiral.hand
+/// $ deictic hand --board serial:/dev/ttyACM0 --record spiral.hand    what the unit's own sensor sends
+/// $ deictic hand --hand leap --to serial:/dev/ttyUSB0@115200         on the line to a unit's sensor input
 /// ```
 ///
 /// Ends with the sensor, or at Ctrl-C. With --json, one object per look and one per sentence.
@@ -51,9 +49,13 @@ pub struct Hand {
     sensing: Sensing,
     #[command(flatten)]
     files: Files,
-    /// Write what the sensor sends to this file as well
+    /// Write what the sensor sends to this file as well; without --hand, what the unit's own sensor sends
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+    /// Write what the sensor sends to this line, serial:PORT@BAUD or tcp:HOST:PORT, and talk to no unit: the line leads to
+    /// a unit's sensor input
+    #[arg(long, value_name = "LINE", requires = "hand", conflicts_with = "board")]
+    to: Option<Line>,
     /// Print JSON lines, for programs
     #[arg(long)]
     json: bool,
@@ -68,7 +70,37 @@ impl Hand {
         let (lexicon, table) = self.files.read()?;
         let setup = self.sensing.setup(&table, &lexicon)?;
         let mut source = self.sensing.open(&table, &lexicon)?;
-        let mut recorder = self.record.as_deref().map(Recorder::create).transpose()?;
+        let mut record = Record::open(&self)?;
+        let interrupts = interrupts()?;
+        if let Some(line) = &self.to {
+            let mut wire = open_line(line)?;
+            while let Some(open) = &source
+                && !is_over(&interrupts)
+            {
+                let mut written = Ok(());
+                let take = |sample| {
+                    record.push(&sample);
+                    if written.is_ok() {
+                        written = wire.write(&framed(&sample));
+                    }
+                };
+                let more = drain(open, take, |odd| {
+                    anstream::eprintln!("{}", paint::bad(odd));
+                });
+                written
+                    .into_diagnostic()
+                    .wrap_err_with(|| format!("{line} takes no more"))?;
+                source = source.filter(|_| more);
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            return record.finish();
+        }
+        if source.is_none() && matches!(self.board, Address::Inside) {
+            return Err(advice(
+                "there is no sensor: --board inside has no line for one",
+                "name one at this machine with --hand, or a board with one on its sensor line with --board",
+            ));
+        }
         let configuration = Configuration {
             // Whatever is shown is only looked at.
             expected: 0xff,
@@ -77,24 +109,16 @@ impl Hand {
         let vocabulary = lexicon.vocabulary();
         let mut unit = GestureUnit::connect(&self.board, vocabulary, table.scene(), configuration)?;
         unit.set_hand(setup.clone())?;
-        let mut screen = Screen {
-            json: self.json,
-            lines: 0,
-            setup: &setup,
-            table: &table,
-            lexicon: &lexicon,
-        };
         let has_source = source.is_some();
+        if self.record.is_some() && !has_source {
+            unit.relay()?;
+        }
+        let mut screen = Screen::new(self.json, &setup, &table, &lexicon);
         let (mut looked, mut over) = (Instant::now(), Instant::now());
-        let mut broken = None;
-        loop {
+        while !is_over(&interrupts) {
             if let Some(open) = &source {
                 let take = |sample| {
-                    if let Some(recorder) = &mut recorder
-                        && let Err(error) = recorder.push(&sample)
-                    {
-                        broken = Some(error);
-                    }
+                    record.push(&sample);
                     // A unit that cannot be told is lost, which it says itself.
                     drop(unit.sense(&sample));
                 };
@@ -102,9 +126,6 @@ impl Hand {
                     source = None;
                     over = Instant::now();
                 }
-            }
-            if let Some(error) = broken.take() {
-                return Err(error.into());
             }
             if looked.elapsed() >= LOOK {
                 looked = Instant::now();
@@ -114,6 +135,7 @@ impl Hand {
                 match event {
                     Event::Hand(view) => screen.show(&view),
                     Event::HandStatistics(statistics) => screen.count(&statistics.samples),
+                    Event::Sample(sample) => record.push(&sample),
                     Event::Shown { sentence, .. } => {
                         screen.said(&explain::sentence(&sentence, &lexicon));
                     }
@@ -125,146 +147,50 @@ impl Hand {
                     _ => {}
                 }
             }
+            record.check()?;
             if has_source && source.is_none() && over.elapsed() >= AFTERWARDS {
-                return recorder.map_or(Ok(()), |recorder| Ok(recorder.finish()?));
+                break;
             }
         }
+        record.finish()
     }
 }
 
-/// What is on the terminal.
-struct Screen<'a> {
-    json: bool,
-    /// How many lines the picture has that is to be drawn over.
-    lines: usize,
-    setup: &'a HandSetup,
-    table: &'a Tabletop,
-    lexicon: &'a Lexicon,
+fn is_over(interrupts: &AtomicU8) -> bool {
+    interrupts.load(Ordering::Relaxed) > 0
 }
 
-impl Screen<'_> {
-    fn thing(&self, number: u8) -> String {
-        let things = self.table.scene().entities();
-        things.get(usize::from(number)).map_or_else(
-            || format!("thing {number}"),
-            |t| self.lexicon.option_name(t.category, t.option),
-        )
-    }
-
-    fn stroke(&self, number: u8) -> String {
-        let names = self.setup.strokes();
-        let name = names.get(usize::from(number));
-        name.map_or_else(|| format!("gesture {number}"), |n| (*n).to_owned())
-    }
-
-    fn words(&self, view: &HandView) -> Vec<String> {
-        let words = view.words.iter();
-        words
-            .map(|w| self.lexicon.option_name(w.category, w.option))
-            .collect()
-    }
-
-    /// The last look, as JSON or as bars over the picture before.
-    fn show(&mut self, view: &HandView) {
-        let shapes = Shape::ALL
-            .iter()
-            .map(|s| s.name().to_owned())
-            .zip(view.shapes);
-        let shapes: Vec<(String, f32)> = shapes.collect();
-        let mut strokes: Vec<_> = view
-            .strokes
-            .iter()
-            .map(|g| (self.stroke(g.number), g.p))
-            .collect();
-        strokes.push(("no gesture".to_owned(), view.no_stroke));
-        let mut pointed: Vec<_> = view
-            .pointed
-            .iter()
-            .map(|g| (self.thing(g.number), g.p))
-            .collect();
-        pointed.push(("nothing".to_owned(), view.nothing));
-        if self.json {
-            let object = |list: &[(String, f32)]| -> Value {
-                list.iter()
-                    .map(|(name, p)| (name.clone(), json!(p)))
-                    .collect()
-            };
-            let shown = view.shown.and_then(|s| Shape::ALL.get(usize::from(s)));
-            let line = json!({
-                "event": "hand", "hand": view.hand.map(|side| format!("{side:?}").to_lowercase()),
-                "shapes": object(&shapes), "shown": shown.map(|s| s.name()),
-                "movement": object(&strokes), "pointed": object(&pointed),
-                "words": self.words(view),
-            });
-            anstream::println!("{line}");
-            return;
-        }
-        if !std::io::stdout().is_terminal() {
-            return;
-        }
-        let mut picture = vec![match view.hand {
-            Some(side) => format!("{side:?} hand"),
-            None => "no hand".to_owned(),
-        }];
-        for (title, list) in [
-            ("shape", shapes),
-            ("movement", strokes),
-            ("points at", pointed),
-        ] {
-            picture.push(paint::dim(title).to_string());
-            picture.extend(list.iter().map(|(name, p)| bar(name, *p)));
-        }
-        picture.push(format!(
-            "{} {}",
-            paint::dim("words so far"),
-            self.words(view).join(" ")
-        ));
-        self.erase();
-        for line in &picture {
-            anstream::println!("{line}");
-        }
-        self.lines = picture.len();
-    }
-
-    /// Goes back to where the picture began.
-    fn erase(&mut self) {
-        if self.lines > 0 {
-            anstream::print!("\x1b[{}A\x1b[J", self.lines);
-            let _ = std::io::stdout().flush();
-            self.lines = 0;
-        }
-    }
-
-    fn said(&mut self, text: &str) {
-        self.erase();
-        if self.json {
-            anstream::println!("{}", json!({ "event": "shown", "shown": text }));
-        } else {
-            anstream::println!("{} {}", paint::dim("shown   "), paint::good(text));
-        }
-    }
-
-    fn say(&mut self, about: &str, text: &str) {
-        self.erase();
-        if self.json {
-            anstream::println!("{}", json!({ "event": about, "why": text }));
-        } else {
-            anstream::println!("{} {}", paint::dim(format!("{about:<8}")), paint::bad(text));
-        }
-    }
-
-    fn count(&self, samples: &SampleCounters) {
-        if self.json {
-            anstream::println!("{}", json!({ "event": "samples", "samples": samples }));
-        }
-    }
+/// The recording, if one is made.
+struct Record {
+    recorder: Option<Recorder>,
+    broken: Option<SourceError>,
 }
 
-fn bar(name: &str, p: f32) -> String {
-    let full = (p.clamp(0.0, 1.0) * WIDTH as f32).round() as usize;
-    format!(
-        "  {name:<16} {:<WIDTH$} {:>3.0} %",
-        "█".repeat(full),
-        100.0 * p
-    )
+impl Record {
+    fn open(hand: &Hand) -> Result<Self> {
+        let recorder = hand.record.as_deref().map(Recorder::create).transpose()?;
+        Ok(Self {
+            recorder,
+            broken: None,
+        })
+    }
+
+    fn push(&mut self, sample: &Sample) {
+        if let Some(recorder) = &mut self.recorder
+            && let Err(error) = recorder.push(sample)
+        {
+            self.broken = Some(error);
+        }
+    }
+
+    /// Whether all of it could be written so far.
+    fn check(&mut self) -> Result<()> {
+        self.broken.take().map_or(Ok(()), |error| Err(error.into()))
+    }
+
+    fn finish(mut self) -> Result<()> {
+        self.check()?;
+        self.recorder
+            .map_or(Ok(()), |recorder| Ok(recorder.finish()?))
+    }
 }

@@ -7,6 +7,7 @@ mod ears;
 mod files;
 pub mod gestures;
 pub mod hand;
+mod interrupts;
 mod lines;
 mod log;
 mod paint;

@@ -2,18 +2,18 @@
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
-use miette::{Context, IntoDiagnostic, Result};
+use miette::Result;
 
 use super::conversation::{Conversation, Ending};
 use super::ears::Speech;
 use super::files::Files;
+use super::interrupts::interrupts;
 use super::lines::{Lines, Typed};
 use super::log::Log;
 use super::pictures::Draw;
@@ -240,16 +240,4 @@ fn exit_code(ending: Ending) -> u8 {
         Ending::Done => 0,
         Ending::NotDone => 2,
     }
-}
-
-/// Ctrl-C, counted instead of ending the program in the middle of a motion.
-fn interrupts() -> Result<Arc<AtomicU8>> {
-    let count = Arc::new(AtomicU8::new(0));
-    let counted = Arc::clone(&count);
-    ctrlc::set_handler(move || {
-        counted.store(1, Ordering::Relaxed);
-    })
-    .into_diagnostic()
-    .wrap_err("Ctrl-C cannot be watched for")?;
-    Ok(count)
 }

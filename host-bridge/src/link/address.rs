@@ -94,8 +94,12 @@ pub enum Address {
     Can(String),
     /// On a CAN bus behind a LAWICEL adapter: `slcan:/dev/ttyACM0`, `slcan:tcp:127.0.0.1:7700`.
     Slcan(Line),
-    /// An emulated board that is started for the purpose: `qemu`.
-    Qemu,
+    /// An emulated board that is started for the purpose: `qemu`, or `qemu:7801` for one whose sensor line listens at
+    /// that port of this machine.
+    Qemu {
+        /// The sensor line's port.
+        sensor: Option<u16>,
+    },
     /// The unit's state machine in this process, without a board: `inside`.
     Inside,
 }
@@ -104,7 +108,7 @@ pub enum Address {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{0}` is not the address of a unit; write serial:/dev/ttyACM0, serial:/dev/ttyACM0@921600, \
-     tcp:127.0.0.1:7700, can:can0, slcan:/dev/ttyACM0, qemu, or inside for none at all"
+     tcp:127.0.0.1:7700, can:can0, slcan:/dev/ttyACM0, qemu, qemu:7801 (with a sensor line), or inside for none at all"
 )]
 pub struct AddressError(String);
 
@@ -114,11 +118,15 @@ impl FromStr for Address {
     fn from_str(written: &str) -> Result<Self, AddressError> {
         let error = || AddressError(written.to_owned());
         match written.split_once(':') {
-            None if written == "qemu" => Ok(Self::Qemu),
+            None if written == "qemu" => Ok(Self::Qemu { sensor: None }),
             None if written == "inside" => Ok(Self::Inside),
             Some(("can", interface)) if !interface.is_empty() => {
                 Ok(Self::Can(interface.to_owned()))
             }
+            Some(("qemu", port)) => match port.parse() {
+                Ok(port) if port > 0 => Ok(Self::Qemu { sensor: Some(port) }),
+                _ => Err(error()),
+            },
             Some(("slcan", line)) => Line::of_adapter(line).map(Self::Slcan).ok_or_else(error),
             _ => written.parse().map(Self::Line).map_err(|_| error()),
         }
@@ -131,7 +139,8 @@ impl fmt::Display for Address {
             Self::Line(line) => line.fmt(f),
             Self::Can(interface) => write!(f, "can:{interface}"),
             Self::Slcan(line) => write!(f, "slcan:{line}"),
-            Self::Qemu => write!(f, "qemu"),
+            Self::Qemu { sensor: None } => write!(f, "qemu"),
+            Self::Qemu { sensor: Some(port) } => write!(f, "qemu:{port}"),
             Self::Inside => write!(f, "inside"),
         }
     }
@@ -151,6 +160,7 @@ mod tests {
             "slcan:serial:/dev/ttyACM0@115200",
             "slcan:tcp:127.0.0.1:7700",
             "qemu",
+            "qemu:7801",
             "inside",
         ] {
             assert_eq!(written.parse::<Address>().unwrap().to_string(), written);
@@ -168,6 +178,8 @@ mod tests {
             "usb:1",
             "can:",
             "slcan:",
+            "qemu:",
+            "qemu:0",
             "slcan:tcp:here",
             "tcp:here",
             "tcp::7700",

@@ -137,7 +137,7 @@ pub fn open(address: &Address) -> Result<Box<dyn Wire>, WireError> {
         Address::Line(line) => open_line(line)?,
         Address::Can(interface) => Box::new(bus::Node::new(open_interface(interface)?)),
         Address::Slcan(line) => Box::new(bus::Node::new(open_adapter(line)?)),
-        Address::Qemu => Box::new(qemu::Board::boot()?),
+        Address::Qemu { sensor } => Box::new(qemu::Board::boot(*sensor)?),
         Address::Inside => Box::new(Inside::start()),
     })
 }

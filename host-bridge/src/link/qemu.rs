@@ -45,9 +45,19 @@ impl Emulation {
         wanted: [bool; UARTS],
         further: &[OsString],
     ) -> Result<Self, WireError> {
+        Self::start_with(image, wanted, None, further)
+    }
+
+    /// The same, with one of the other UARTs listening at a port of its own for somebody else to connect to.
+    fn start_with(
+        image: &Path,
+        wanted: [bool; UARTS],
+        left: Option<(usize, u16)>,
+        further: &[OsString],
+    ) -> Result<Self, WireError> {
         let mut attempts = 1..ATTEMPTS;
         loop {
-            let mut emulation = Self::spawn(image, wanted, further)?;
+            let mut emulation = Self::spawn(image, wanted, left, further)?;
             match (emulation.connect(), attempts.next()) {
                 (Ok(()), _) => return Ok(emulation),
                 (Err(cause), None) => return Err(WireError::Silent(cause)),
@@ -56,7 +66,12 @@ impl Emulation {
         }
     }
 
-    fn spawn(image: &Path, wanted: [bool; UARTS], further: &[OsString]) -> Result<Self, WireError> {
+    fn spawn(
+        image: &Path,
+        wanted: [bool; UARTS],
+        left: Option<(usize, u16)>,
+        further: &[OsString],
+    ) -> Result<Self, WireError> {
         let mut ports = [None; UARTS];
         for (port, _) in ports.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
             *port = Some(free_port().map_err(WireError::Silent)?);
@@ -65,11 +80,12 @@ impl Emulation {
         qemu.args(["-M", "mps2-an386", "-display", "none", "-monitor", "none"])
             .args(["-chardev", "null,id=log"])
             .args(["-semihosting-config", "enable=on,target=native,chardev=log"]);
-        for port in ports {
+        for (uart, port) in ports.into_iter().enumerate() {
+            let others = left.filter(|(number, _)| *number == uart).map(|l| l.1);
             let listening = |port| format!("tcp:127.0.0.1:{port},server=on,wait=off,nodelay=on");
             qemu.args([
                 "-serial",
-                &port.map_or_else(|| "null".to_owned(), listening),
+                &port.or(others).map_or_else(|| "null".to_owned(), listening),
             ]);
         }
         qemu.args(further).arg("-kernel").arg(image);
@@ -136,9 +152,11 @@ pub struct Board {
 }
 
 impl Board {
-    /// Boots the image and connects to its host link.
-    pub fn boot() -> Result<Self, WireError> {
-        Self::with(Emulation::start(&image()?, [true, false, false], &[])?)
+    /// Boots the image and connects to its host link; its hand sensor's, if there is one, listens at that port.
+    pub fn boot(sensor: Option<u16>) -> Result<Self, WireError> {
+        let left = sensor.map(|port| (2, port));
+        let wanted = [true, false, false];
+        Self::with(Emulation::start_with(&image()?, wanted, left, &[])?)
     }
 
     /// Boots the image and connects to its host link and to its hand sensor's.

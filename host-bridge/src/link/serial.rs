@@ -86,7 +86,8 @@ impl Wire for Port {
         self.0.set_timeout(patience)?;
         match self.0.read(buffer) {
             Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
-            Err(e) if e.kind() == ErrorKind::TimedOut => Ok(0),
+            // A signal, as Ctrl-C sends one, interrupts the waiting only.
+            Err(e) if matches!(e.kind(), ErrorKind::TimedOut | ErrorKind::Interrupted) => Ok(0),
             other => other,
         }
     }

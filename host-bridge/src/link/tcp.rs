@@ -63,7 +63,15 @@ impl Wire for Stream {
         }
         match read {
             Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
-            Err(e) if matches!(e.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => Ok(0),
+            // A signal, as Ctrl-C sends one, interrupts the waiting only.
+            Err(e)
+                if matches!(
+                    e.kind(),
+                    ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted
+                ) =>
+            {
+                Ok(0)
+            }
             other => other,
         }
     }

@@ -50,7 +50,7 @@ impl Session<'_> {
                 }
             }
             unit::Event::Shown { sentence, answers } => self.shown(*sentence, answers),
-            unit::Event::Hand(_) | unit::Event::HandStatistics(_) => {}
+            unit::Event::Hand(_) | unit::Event::HandStatistics(_) | unit::Event::Sample(_) => {}
             unit::Event::Fault(fault) => {
                 self.due = None;
                 self.happened.push(Happening::Fault(fault));

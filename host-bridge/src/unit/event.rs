@@ -1,5 +1,6 @@
 //! What a unit has said, or what has become of it.
 
+use deictic_core::gesture::wire::Sample;
 use deictic_core::large::Sentence;
 use deictic_core::protocol::hand::{HandStatistics, HandView};
 use deictic_core::protocol::message::{Decided, Fault, Hello, Statistics, Why, WhyActions};
@@ -37,6 +38,8 @@ pub enum Event {
     Hand(Box<HandView>),
     /// What has become of samples.
     HandStatistics(HandStatistics),
+    /// What its own hand sensor sent ([`super::GestureUnit::relay`]).
+    Sample(Box<Sample>),
     /// It is gone; nothing can be decided until [`Event::Back`].
     Lost(Loss),
     /// It is there, and knows vocabulary, scene and configuration again. What was waiting in it is

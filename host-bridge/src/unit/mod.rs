@@ -11,7 +11,8 @@ mod trust;
 
 use std::time::{Duration, Instant};
 
-use deictic_core::large::{Scene, Sentence, ToHost, Vocabulary};
+use deictic_core::gesture::wire::decode;
+use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
 use deictic_core::protocol::message::{Configuration, Fault, Hello, Loaded, SentencePart};
 use deictic_core::sentence::GESTURE;
 
@@ -55,6 +56,8 @@ pub struct GestureUnit {
     configuration: Configuration,
     hand: Option<HandSetup>,
     sensors: Option<SensorModel>,
+    /// Whether it passes on what its own hand sensor sends.
+    relays: bool,
     /// What a hand said that is arriving in parts.
     shown: Sentence,
     trust: Trust,
@@ -101,6 +104,7 @@ impl GestureUnit {
             configuration,
             hand: None,
             sensors: None,
+            relays: false,
             shown: Sentence::new(GESTURE),
             trust: Trust::new(vocabulary.fingerprint(), scene.version()),
             hello,
@@ -194,6 +198,8 @@ impl GestureUnit {
             ToHost::Shown(part) => self.shown(part),
             ToHost::Hand(view) => Some(Event::Hand(Box::new(view))),
             ToHost::HandStatistics(statistics) => Some(Event::HandStatistics(statistics)),
+            // What cannot be is among the unit's own counts.
+            ToHost::Sample(bytes) => decode(&bytes).ok().map(|s| Event::Sample(Box::new(s))),
             _ => None,
         }
     }
@@ -250,6 +256,9 @@ impl GestureUnit {
                         }
                         if let Some(sensors) = &self.sensors {
                             let _ = conversation.say_sensors(sensors);
+                        }
+                        if self.relays {
+                            let _ = conversation.say(&ToUnit::Relay(true));
                         }
                         self.conversation = Some(conversation);
                         self.loaded = true;

@@ -106,6 +106,16 @@ impl GestureUnit {
         self.with(|c| c.say(&ToUnit::AskHand))
     }
 
+    /// Has the unit pass on what its own hand sensor sends, from now on and whenever it comes back; every sample is an
+    /// [`super::Event::Sample`].
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit is told when it comes back.
+    pub fn relay(&mut self) -> Result<(), UnitError> {
+        self.relays = true;
+        self.with(|c| c.say(&ToUnit::Relay(true)))
+    }
+
     /// Asks the unit what it has counted; the answer is an [`Event::Statistics`].
     ///
     /// # Errors

@@ -54,6 +54,7 @@ fn show(host: &mut Host<Painted>) {
         separate(),
         Act::Point(STORAGES[0]),
     ];
+    host.say(&ToUnit::Relay(true));
     for (i, sample) in person(3, &acts).iter().enumerate() {
         host.wire.sense(&framed(sample));
         std::thread::sleep(Duration::from_secs_f64(1.0 / RATE));

@@ -58,6 +58,8 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     Sensor(SensorPart<N>),
     /// How the answer to a question sounded.
     Answer(Answer<N>),
+    /// Pass on what your own hand sensor sends, or stop to.
+    Relay(bool),
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
@@ -105,6 +107,8 @@ pub enum ToHost<const N: usize, const C: usize> {
     Challenge(u64),
     /// The proof was right; this and all that follows is sealed.
     Proven,
+    /// Asked for: what the unit's own hand sensor sent.
+    Sample(SampleBytes),
 }
 
 impl<const N: usize, const C: usize> Opening for ToHost<N, C> {

@@ -113,7 +113,10 @@ impl Bus for Socket {
                 Ok(CanFrame::Remote(_)) => {}
                 Ok(CanFrame::Error(error)) => self.report(error.into())?,
                 Err(error)
-                    if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) =>
+                    if matches!(
+                        error.kind(),
+                        ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted
+                    ) =>
                 {
                     if Instant::now() >= until {
                         return Ok(None);
