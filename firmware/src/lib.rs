@@ -1,6 +1,6 @@
 //! The gesture unit's board: a thin loop around [`deictic_core::unit::Unit`], which holds all behaviour.
 //!
-//! [`turn()`] and [`run`] know a board only as a [`Board`]: two byte streams, a clock, a watchdog and a way to sleep.
+//! [`turn()`] and [`run`] know a board only as a [`Board`]: two byte streams, what a gesture sensor may have recognised, a clock, a watchdog and a way to sleep.
 //! They build and are tested on any host. A board module, chosen by a cargo feature, fills the trait in:
 //!
 //! | feature | board | host link | sensor link | log |

@@ -227,11 +227,11 @@ fn mediapipes_landmarks_are_read_from_a_server() {
 
 /// A frame of a hand in the middle of what a person does.
 fn shown() -> HandFrame {
-    let hands = person().into_iter().filter_map(|s| match s {
+    let mut hands = person().into_iter().filter_map(|s| match s {
         Sample::Hand(frame) => Some(frame),
         Sample::Nothing(_) => None,
     });
-    hands.skip(100).next().unwrap()
+    hands.nth(100).unwrap()
 }
 
 #[test]

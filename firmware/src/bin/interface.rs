@@ -19,7 +19,10 @@ use deictic_core::command::seal::{Guard, Heard};
 use deictic_core::command::{Packet, field};
 use deictic_core::decide::decide;
 use deictic_core::fuse::{Situation, fuse, says_clearly};
+use deictic_core::gesture::calibration::Calibration;
 use deictic_core::gesture::line::{SensorLine, send};
+use deictic_core::gesture::mapping::STROKES;
+use deictic_core::gesture::stroke::Likely;
 use deictic_core::gesture::wire::{decode, encode};
 use deictic_core::joint::posterior::Triple;
 use deictic_core::joint::{self, Tables};
@@ -58,6 +61,10 @@ macro_rules! unit {
         }
         unit.receive(now, &bytes);
         unit.sense(now, &bytes);
+        unit.recognise(&any(Likely {
+            gestures: [0.1; STROKES],
+            none: 0.2,
+        }));
         unit.poll(now);
         unit.sent(any(3));
         black_box((unit.next_wake(), unit.outgoing().len(), unit.statistics()));
@@ -205,6 +212,9 @@ fn figures() {
         math::round(any(0.5)),
         math::clamp_unit(any(2.0)),
     ));
+    let mut calibration = Calibration::new();
+    calibration.missed_by(any(0.1));
+    black_box(calibration.aim());
     black_box((Category::user(any(255)), Category::from_index(any(99))));
     let set = BitSet(any(9)).with(any(77));
     black_box((set.contains(any(40)), set.fits(any(33)), set.iter().count()));
