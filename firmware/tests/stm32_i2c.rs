@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::Traffic::{Byte, Start, Stop};
-use common::{Peripheral, Trouble};
+use common::sensor::Traffic::{Byte, Start, Stop};
+use common::sensor::{Peripheral, Trouble};
 use deictic_firmware::paj7620::ADDRESS;
 use deictic_firmware::stm32_i2c::Controller;
 use embedded_hal::i2c::{ErrorKind, I2c, NoAcknowledgeSource, Operation};
