@@ -97,8 +97,8 @@ impl GestureUnit {
         self.with(|c| c.say(&ToUnit::Sample(bytes)))
     }
 
-    /// Asks the unit what it sees of a hand; the answers are an [`Event::Hand`] and an
-    /// [`Event::HandStatistics`].
+    /// Asks the unit what it sees of a hand; the answers are an [`super::Event::Hand`] and an
+    /// [`super::Event::HandStatistics`].
     ///
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
@@ -116,7 +116,7 @@ impl GestureUnit {
         self.with(|c| c.say(&ToUnit::Relay(true)))
     }
 
-    /// Asks the unit what it has counted; the answer is an [`Event::Statistics`].
+    /// Asks the unit what it has counted; the answer is an [`super::Event::Statistics`].
     ///
     /// # Errors
     /// [`UnitError`]; the unit has then not heard it.
