@@ -152,6 +152,8 @@ impl Around for World {
         let mut inside = self.inside();
         inside.boots += 1;
         inside.unit = start(inside.boots, inside.key.as_ref());
+        // What it was in the middle of saying is not the beginning of what it says now.
+        inside.ear = Ear::default();
         inside.ahead = Micros(0);
         inside.to_unit.break_after(0);
     }
@@ -239,6 +241,15 @@ impl Inside {
         self.now = self.now.max(until);
     }
 
+    /// An error while the cable is out, after which the bridge listens anew.
+    fn find_pulled(&mut self, now: Micros) -> io::Result<()> {
+        if now >= self.pulled {
+            return Ok(());
+        }
+        self.host_ear = Ear::default();
+        Err(io::Error::other("pulled"))
+    }
+
     /// Notes when something whole comes to the host, and the executions among it.
     fn listen(&mut self, now: Micros, bytes: &[u8]) {
         for &byte in bytes {
@@ -282,9 +293,7 @@ impl Wire for World {
         let now = self.now();
         let mut inside = self.inside();
         inside.run(now);
-        if now < inside.pulled {
-            return Err(io::Error::other("pulled"));
-        }
+        inside.find_pulled(now)?;
         inside.to_unit.write(now, bytes);
         Ok(())
     }
@@ -301,9 +310,7 @@ impl Wire for World {
                 buffer[..arrived.bytes.len()].copy_from_slice(&arrived.bytes);
                 return Ok(arrived.bytes.len());
             }
-            if now < inside.pulled {
-                return Err(io::Error::other("pulled"));
-            }
+            inside.find_pulled(now)?;
             if now >= until {
                 return Ok(0);
             }

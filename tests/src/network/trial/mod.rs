@@ -1,14 +1,15 @@
 //! One session under faults, and what must hold of it whatever happens.
 
+mod holds;
+mod mishap;
+
 use std::time::Duration;
 
 use deictic::clock::Simulated;
 use deictic::link::Wire;
-use deictic::robot::Event;
 use deictic::session::{Happening, Session};
-use deictic::unit::{UNIT_LOST, UnitError};
+use deictic::unit::UnitError;
 use deictic_bits::random::Random;
-use deictic_core::category::Category;
 use deictic_core::decide::Outcome;
 use deictic_core::protocol::message::Configuration;
 use deictic_core::protocol::seal::{KEY, Key};
@@ -264,143 +265,5 @@ impl<'a, A: Around + Wire + Clone + Send + 'static> Trial<'a, A> {
         self.happened.extend(happened);
         self.check_motion();
         self.check_robot();
-    }
-
-    /// Something goes wrong, or the person says stop. Gives whether it was a stop.
-    fn mishap(&mut self, setting: &Setting) -> bool {
-        let span = Micros(u64::from(self.random.below(4_000_000)));
-        match self.random.below(10) {
-            0 => self.world.restart(),
-            1 => {
-                let more = self.random.below(300) as usize;
-                self.world.pull(span, more);
-            }
-            2 => self.world.freeze(span),
-            3 => self
-                .world
-                .jump(span.after(Micros::from_millis(u64::from(self.random.below(100_000))))),
-            4 => {
-                self.world.sleep(span);
-                // Whoever slept sees to the robot first.
-                return false;
-            }
-            5 => {
-                let moment = self.robot_now();
-                self.robot.kill(moment);
-            }
-            6 | 7 => self.disturb_table(setting),
-            8 => {
-                self.session.stop();
-                self.check_still();
-                return true;
-            }
-            _ => {
-                let vocabulary = setting.lexicon.vocabulary();
-                let stop = vocabulary.stop().expect("the tabletop has one");
-                let name = setting.lexicon.option_name(Category::ACTION, stop);
-                let _ = self.session.observe(setting.say(&name, LANGUAGE));
-                self.check_still();
-                return true;
-            }
-        }
-        false
-    }
-
-    /// Somebody moves a thing, takes one away, or lays the table as it was in the beginning.
-    fn disturb_table(&mut self, setting: &Setting) {
-        let mut things = self.session.table().scene().entities().to_vec();
-        let one = self.random.below(things.len().max(1) as u32) as usize;
-        match self.random.below(3) {
-            0 if one < things.len() => drop(things.remove(one)),
-            1 => things = setting.table.scene().entities().to_vec(),
-            _ => {
-                if let Some(thing) = things.get_mut(one) {
-                    thing.position[1] += 0.02 * (self.random.unit() - 0.5);
-                }
-            }
-        }
-        self.session.lay(things).expect("things of the vocabulary");
-    }
-
-    /// The robot's time is the session's, which began after the world's.
-    fn robot_now(&self) -> Micros {
-        Micros(self.world.now().since(self.began).0)
-    }
-
-    /// A stop stops at once.
-    fn check_still(&self) {
-        let moment = self.robot_now();
-        assert!(
-            !self.robot.seen().is_moving(moment),
-            "it moves after a stop"
-        );
-    }
-
-    /// Nothing moves for longer than the bound after the unit was heard last.
-    fn check_motion(&mut self) {
-        let moment = self.robot_now();
-        if !self.robot.seen().is_moving(moment) {
-            return;
-        }
-        let alone = self.world.now().since(self.world.heard());
-        self.account.alone = self.account.alone.max(alone);
-        // The bridge finds the silence out in the turn in which it becomes too long.
-        let bound = UNIT_LOST + self.late;
-        assert!(
-            Duration::from_micros(alone.0) <= bound,
-            "it moves {} ms after the unit was heard last",
-            alone.0 / 1000
-        );
-    }
-
-    /// Everything the robot began is something the unit told, on the scene that was there, and each of them once.
-    fn check_robot(&mut self) {
-        let seen = self.robot.seen();
-        assert!(
-            seen.nothing_twice(),
-            "something was begun twice: {:#?}",
-            seen.begun
-        );
-        for (command, _) in &seen.begun[self.watched..] {
-            // Each decision can be carried out once.
-            assert!(
-                self.world.redeem(command.scene, &command.intent),
-                "nobody told it to: {command:#?}"
-            );
-        }
-        self.watched = seen.begun.len();
-    }
-
-    /// How the command ended, by all that happened since it was given.
-    fn end(&self, given: bool, stopped: bool) -> End {
-        let count = |is: fn(&Happening) -> bool| self.happened.iter().filter(|h| is(h)).count();
-        let begun = count(|h| matches!(h, Happening::Accepted(_)));
-        let done = count(|h| matches!(h, Happening::Robot(Event::Done(_))));
-        let halted = count(|h| matches!(h, Happening::Robot(Event::Stopped { .. })));
-        let failed = count(|h| matches!(h, Happening::Robot(Event::Failed { .. })));
-        let refused = count(|h| matches!(h, Happening::Refused { .. } | Happening::Fault(_)));
-        let distrusted = count(|h| matches!(h, Happening::Distrusted(_)));
-        let asked = count(|h| match h {
-            Happening::Decided { decision, .. } => !matches!(decision.outcome, Outcome::Execute(_)),
-            _ => false,
-        });
-        let overruled = count(|h| matches!(h, Happening::Overruled));
-        let lost = count(|h| matches!(h, Happening::Lost(_) | Happening::NoDecision));
-        assert_eq!(
-            begun,
-            done + halted + failed,
-            "what is begun ends once: {:#?}",
-            self.happened
-        );
-        match () {
-            () if halted > 0 => End::Stopped,
-            () if failed > 0 => End::Lost,
-            () if done > 0 && (!stopped || begun > 1) => End::Done,
-            () if stopped || overruled > 0 => End::Stopped,
-            () if asked > 0 => End::Asked,
-            () if refused > 0 || distrusted > 0 => End::Refused,
-            () if lost > 0 || !given => End::Lost,
-            () => panic!("a command has come to nothing: {:#?}", self.happened),
-        }
     }
 }
