@@ -77,6 +77,30 @@ fn parts_out_of_order_leave_the_old_in_force() {
 }
 
 #[test]
+fn a_scene_that_was_begun_under_another_vocabulary_is_begun_anew() {
+    let mut bench = Bench::ready();
+    let parts = scene_parts(9);
+    assert!(faults(&bench.say(&parts[0])).is_empty());
+    for part in vocabulary_parts() {
+        assert!(faults(&bench.say(&part)).is_empty());
+    }
+    // Its first things were held against the vocabulary before.
+    let heard = bench.say(&parts[1]);
+    assert!(
+        matches!(
+            faults(&heard)[..],
+            [Fault::PartOutOfOrder { expected: 0, .. }]
+        ),
+        "{heard:?}"
+    );
+    let heard: Vec<_> = parts.iter().flat_map(|part| bench.say(part)).collect();
+    assert!(
+        heard.contains(&ToHost::Loaded(Loaded::Scene(9))),
+        "{heard:?}"
+    );
+}
+
+#[test]
 fn a_scene_that_is_not_newer_is_refused() {
     let mut bench = Bench::ready();
     let heard = bench.say(&scene_parts(1)[0]);

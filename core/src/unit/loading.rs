@@ -88,6 +88,8 @@ impl<const N: usize, const C: usize, const F: usize, const E: usize> Loading<N, 
         self.actions.clear();
         set.map_err(Fault::Vocabulary)?;
         self.scene.restart(0);
+        // Its things were held against the vocabulary before.
+        self.arriving.restart(0);
         Ok(Some(Loaded::Vocabulary(part.fingerprint)))
     }
 
