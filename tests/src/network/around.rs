@@ -10,6 +10,9 @@ pub trait Around {
     /// The present moment.
     fn now(&self) -> Micros;
 
+    /// The bridge listens anew.
+    fn opened(&self) {}
+
     /// When a whole frame last came to the host.
     fn heard(&self) -> Micros;
 

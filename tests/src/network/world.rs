@@ -134,6 +134,10 @@ impl World {
 }
 
 impl Around for World {
+    fn opened(&self) {
+        self.inside().host_ear = Ear::default();
+    }
+
     fn now(&self) -> Micros {
         Micros(clock::since(self.began).as_micros() as u64)
     }
@@ -241,15 +245,6 @@ impl Inside {
         self.now = self.now.max(until);
     }
 
-    /// An error while the cable is out, after which the bridge listens anew.
-    fn find_pulled(&mut self, now: Micros) -> io::Result<()> {
-        if now >= self.pulled {
-            return Ok(());
-        }
-        self.host_ear = Ear::default();
-        Err(io::Error::other("pulled"))
-    }
-
     /// Notes when something whole comes to the host, and the executions among it.
     fn listen(&mut self, now: Micros, bytes: &[u8]) {
         for &byte in bytes {
@@ -293,7 +288,9 @@ impl Wire for World {
         let now = self.now();
         let mut inside = self.inside();
         inside.run(now);
-        inside.find_pulled(now)?;
+        if now < inside.pulled {
+            return Err(io::Error::other("pulled"));
+        }
         inside.to_unit.write(now, bytes);
         Ok(())
     }
@@ -310,7 +307,9 @@ impl Wire for World {
                 buffer[..arrived.bytes.len()].copy_from_slice(&arrived.bytes);
                 return Ok(arrived.bytes.len());
             }
-            inside.find_pulled(now)?;
+            if now < inside.pulled {
+                return Err(io::Error::other("pulled"));
+            }
             if now >= until {
                 return Ok(0);
             }

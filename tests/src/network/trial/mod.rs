@@ -145,7 +145,10 @@ impl<'a, A: Around + Wire + Clone + Send + 'static> Trial<'a, A> {
         let robot = Watch::new(1.0 + random.below(8) as f32);
         let wire = world.clone();
         let session = Session::open(
-            Box::new(move || Ok(Box::new(wire.clone()) as Box<dyn Wire>)),
+            Box::new(move || {
+                wire.opened();
+                Ok(Box::new(wire.clone()) as Box<dyn Wire>)
+            }),
             Box::new(robot.clone()),
             setting.table.clone(),
             &setting.lexicon,
