@@ -46,6 +46,8 @@ pub struct Heard {
     told: BTreeMap<(u32, u32), Told>,
     /// Decisions since the board started.
     decisions: u32,
+    /// Greetings since statistics were looked at last, each of which may have cut one short that counts.
+    greetings: u32,
     /// Statistics that were not what had been said.
     pub wrong: Vec<(u32, Statistics)>,
     /// How often statistics were looked at.
@@ -166,10 +168,14 @@ impl Heard {
                 }
                 ToHost::Statistics(counted) => {
                     self.looked += 1;
-                    if counted.executes + counted.asks + counted.repeats != self.decisions {
+                    let decided = counted.executes + counted.asks + counted.repeats;
+                    let cut = decided.checked_sub(self.decisions);
+                    if cut.is_none_or(|cut| cut > self.greetings) {
                         self.wrong.push((self.decisions, counted));
                     }
+                    (self.decisions, self.greetings) = (decided, 0);
                 }
+                ToHost::Hello(_) => self.greetings += 1,
                 ToHost::Heartbeat(beat) => {
                     let behind = age.as_micros() as i64 - beat.now.0 as i64;
                     let seen = self.behind.entry(boots).or_insert((behind, behind));
@@ -216,7 +222,7 @@ impl Around for Cable {
         (inside.emulation, inside.wire) = (Some(board), wire);
         inside.boots += 1;
         inside.to_unit.break_after(0);
-        inside.heard.decisions = 0;
+        (inside.heard.decisions, inside.heard.greetings) = (0, 0);
         *inside.heard.ear = Link::default();
     }
 

@@ -77,7 +77,7 @@ impl Host {
     }
 
     fn step(&mut self, source: &mut Source<'_>) {
-        match source.small(28) {
+        match source.small(30) {
             0 => self.pass(Micros(u64::from(source.word()))),
             1 | 2 => self.pass(Micros(u64::from(source.byte()) * 10_000)),
             3 => self.poll(),
@@ -155,6 +155,7 @@ impl Host {
                 self.say(&ToUnit::Meanings(meanings));
             }
             27 => self.say(&ToUnit::AskHand),
+            28 => self.say(&ToUnit::Relay(source.flag())),
             _ => {
                 let version = u16::from(source.byte());
                 let schema = source.word();
