@@ -1,13 +1,14 @@
-//! Speech through the recogniser: spoken by espeak-ng, heard by pocketsphinx. Skipped, and said so,
-//! where these programs are not installed. `deictic-eval speech` gives figures over voices and noise.
+//! Speech through the recognisers: spoken by espeak-ng, heard by pocketsphinx and Moonshine. Skipped,
+//! and said so, where these are not installed. `deictic-eval speech` gives figures over voices and noise.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use deictic::language::pack::Pack;
-use deictic::language::speech::pocketsphinx::{MODEL, Pocketsphinx};
-use deictic::language::speech::{Expected, samples};
+use deictic::language::speech::pocketsphinx::MODEL;
+use deictic::language::speech::{Expected, Kind, Recogniser, moonshine, samples};
 use deictic::language::{Listener, RISK, Spoken};
+use deictic::session::Order;
 use deictic::vocabulary::Lexicon;
 use deictic_core::category::Category;
 use tempfile::TempDir;
@@ -33,19 +34,13 @@ fn speak(folder: &TempDir, name: &str, text: &str) -> PathBuf {
     file
 }
 
-#[test]
-fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
-    if !installed() {
-        return;
-    }
+fn hears_what_is_said(kind: Kind) {
     let lexicon = Lexicon::tabletop().unwrap();
     let pack = Pack::built_in("en").unwrap();
-    let recogniser = Pocketsphinx::new(&lexicon, &pack, Path::new(MODEL)).unwrap();
-    // "unstick" is not in the dictionary; espeak-ng knows how it is said.
-    assert_eq!(recogniser.left_out(), [""; 0]);
+    let mut recogniser = Recogniser::open(kind, &lexicon, &pack, Path::new(MODEL)).unwrap();
     let listener = Listener::new(&lexicon).unwrap();
     let folder = TempDir::new().unwrap();
-    let hear = |text: &str, expected| {
+    let mut hear = |text: &str, expected| {
         let recording = speak(&folder, "said.wav", text);
         recogniser
             .hear(&samples(&recording).unwrap(), expected)
@@ -53,7 +48,7 @@ fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
     };
     for (text, action, object, storage) in [
         ("release", "release", None, None),
-        ("pick the box", "pick", Some("box"), None),
+        ("pick the cup", "pick", Some("cup"), None),
         (
             "put the cube into the drawer",
             "put-into",
@@ -82,6 +77,81 @@ fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
         assert!(listener.hear(&heard).unwrap().commands.is_empty());
         assert_eq!(hear(talk, Expected::Answer).certain(RISK), None);
     }
+}
+
+#[test]
+fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
+    if installed() {
+        hears_what_is_said(Kind::Pocketsphinx);
+    }
+}
+
+#[test]
+fn moonshine_hears_what_is_said_and_takes_no_question_for_a_command() {
+    if moonshine::installed().is_none() || !installed() {
+        eprintln!("skipped: Moonshine is not installed where DEICTIC_MOONSHINE says");
+        return;
+    }
+    hears_what_is_said(Kind::Moonshine);
+    let (lexicon, pack) = (Lexicon::tabletop().unwrap(), Pack::built_in("en").unwrap());
+    let listener = Listener::new(&lexicon).unwrap();
+    let mut recogniser =
+        Recogniser::open(Kind::Moonshine, &lexicon, &pack, Path::new(MODEL)).unwrap();
+    let folder = TempDir::new().unwrap();
+    for text in [
+        "should I pick the cup",
+        "where is the cup",
+        "I have to pick up my daughter at five",
+        "never put the cup into the drawer",
+    ] {
+        let recording = samples(&speak(&folder, "said.wav", text)).unwrap();
+        let heard = recogniser.hear(&recording, Expected::Command).unwrap();
+        let understood = listener.hear(&heard);
+        assert!(
+            understood.is_err() || understood.is_ok_and(|u| u.commands.is_empty()),
+            "{heard:?}"
+        );
+    }
+    assert!(
+        recogniser
+            .hear(&[], Expected::Command)
+            .is_ok_and(|h| h.best().is_empty())
+    );
+}
+
+#[test]
+fn every_word_for_the_robot_itself_is_one() {
+    let pack = Pack::built_in("en").unwrap();
+    let orders = pack.speech.unwrap().order;
+    assert!(
+        !orders.is_empty() && orders.iter().all(|o| Order::of(o).is_some()),
+        "{orders:?}"
+    );
+}
+
+#[test]
+fn what_is_told_the_robot_itself_is_done_when_it_was_heard_clearly() {
+    let home = |share: f64| {
+        let rest = 1.0 - share;
+        let line = format!(
+            r#"{{"alternatives": [{{"text": "go home", "confidence": {share}}}, {{"text": "pick the can", "confidence": {rest}}}]}}"#
+        );
+        run(&["--speech", &format!("lines:echo '{line}'")])
+    };
+    assert_eq!(count(&home(0.999), "homing"), 1);
+    for doubtful in [0.9, 0.5, 0.1] {
+        let events = home(doubtful);
+        assert_eq!(
+            count(&events, "homing") + count(&events, "step"),
+            0,
+            "{events}"
+        );
+        assert_eq!(count(&events, "not-understood"), 1, "{events}");
+    }
+    // Holding when nothing goes on moves nothing.
+    let events = run(&["--speech", "lines:echo hold; echo resume"]);
+    assert_eq!(count(&events, "declined"), 2, "{events}");
+    assert_eq!(count(&events, "step"), 0, "{events}");
 }
 
 #[test]

@@ -25,6 +25,7 @@ mod budget;
 mod cmd;
 mod growth;
 mod guest;
+mod moonshine;
 mod process;
 mod qemu;
 mod robots;

@@ -104,10 +104,16 @@ impl<'a> Conversation<'a> {
             self.drop_waiting();
             session.stop();
         }
-        let orders = spoken.certain(self.listener.risk).and_then(Order::of);
-        match orders {
-            Some(order @ (Order::Hold | Order::Resume | Order::Clear)) => {
-                self.order(session, order)
+        let (order, share) = likeliest_order(&spoken);
+        // Standing still harms nobody, so what may have been hold is done at once.
+        let enough = match order {
+            Some(Order::Hold) => MAY_BE_STOP,
+            _ => 1.0 - self.listener.risk,
+        };
+        match order {
+            Some(order @ (Order::Hold | Order::Resume | Order::Clear)) if share >= enough => {
+                self.printer.spoken(&spoken);
+                self.order(session, order);
             }
             _ => self.waiting.push_back(Input::Spoken(spoken)),
         }
@@ -161,10 +167,16 @@ impl<'a> Conversation<'a> {
             self.printer.nothing("somebody talks, and it is no command");
             return;
         }
-        let sure = spoken.certain(self.listener.risk).and_then(Order::of);
-        if let Some(order) = sure.filter(|_| session.question().is_none()) {
+        let (order, share) = likeliest_order(spoken);
+        if let Some(order) = order.filter(|_| share > self.listener.risk) {
             self.printer.spoken(spoken);
-            self.order(session, order);
+            // Going home moves the arm, so it is done only of what was heard clearly.
+            if share >= 1.0 - self.listener.risk && session.question().is_none() {
+                self.order(session, order);
+            } else {
+                let error = LanguageError::Unclear { text: text.into() };
+                self.printer.not_understood(&error, error.remedy());
+            }
             return;
         }
         if session.question().is_some() {
@@ -292,3 +304,19 @@ impl<'a> Conversation<'a> {
 
 /// What to do when the unit could not be told.
 const AGAIN: &str = "wait until the unit is back, and say it again";
+
+/// The order that was most likely heard, in whatever words, and how likely.
+fn likeliest_order(spoken: &Spoken) -> (Option<Order>, f64) {
+    let share = |order| {
+        let alternatives = spoken.alternatives.iter();
+        let fitting = alternatives.filter(|(text, _)| Order::of(text) == Some(order));
+        fitting.map(|(_, share)| share).sum::<f64>()
+    };
+    let mut best = (None, 0.0);
+    for order in [Order::Hold, Order::Resume, Order::Home, Order::Clear] {
+        if share(order) > best.1 {
+            best = (Some(order), share(order));
+        }
+    }
+    best
+}

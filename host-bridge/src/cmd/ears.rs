@@ -7,7 +7,7 @@ use super::advice;
 use crate::language::Listener;
 use crate::language::pack::Pack;
 use crate::language::speech::pocketsphinx::MODEL;
-use crate::language::speech::{Ears, Pocketsphinx, Source};
+use crate::language::speech::{Ears, Kind, Recogniser, Source};
 use crate::vocabulary::Lexicon;
 
 /// Where speech comes from, and with what caution it is taken.
@@ -17,6 +17,9 @@ pub struct Speech {
     /// samples:COMMAND for another microphone's sound (docs/speech.md)
     #[arg(long, value_name = "SOURCE")]
     speech: Option<Source>,
+    /// What hears: moonshine, pocketsphinx, or best, which is moonshine where it is installed
+    #[arg(long, value_name = "NAME", requires = "speech", default_value = "best")]
+    recogniser: Kind,
     /// Folder of pocketsphinx's model
     #[arg(long, value_name = "FOLDER", default_value = MODEL, requires = "speech")]
     speech_model: std::path::PathBuf,
@@ -39,7 +42,7 @@ impl Speech {
         listener.risk = self.speech_risk;
         let recogniser = || {
             let pack = Pack::of(lexicon.language())?;
-            Pocketsphinx::new(lexicon, &pack, &self.speech_model)
+            Recogniser::open(self.recogniser, lexicon, &pack, &self.speech_model)
         };
         let ears = Ears::open(source, recogniser).map_err(|e| advice(&e, e.remedy()))?;
         Ok(Some(ears))

@@ -176,6 +176,9 @@ pub struct Speech {
     pub yes: Vec<String>,
     /// The answer that it is not so.
     pub no: Vec<String>,
+    /// What is told the robot itself: to hold, to go on, to go home, that a fault was seen to.
+    #[serde(default)]
+    pub order: Vec<String>,
 }
 
 /// The grammar words of a language.

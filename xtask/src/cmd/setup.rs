@@ -2,6 +2,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 
 use crate::guest;
+use crate::moonshine;
 use crate::process::{find, output};
 use crate::toolchain::{Toolchain, apt_install};
 
@@ -28,6 +29,10 @@ impl Setup {
         match ensure_speech() {
             Ok(()) => println!("speech: pocketsphinx"),
             Err(why) => println!("speech: not here, its tests will be skipped: {why:#}"),
+        }
+        match moonshine::install() {
+            Ok(place) => println!("speech, heard better: Moonshine in {}", place.display()),
+            Err(why) => println!("speech, heard better: not here: {why:#}"),
         }
         println!("All set: try `cargo xtask demo`.");
         Ok(())

@@ -7,6 +7,7 @@ use clap::Args;
 use crate::board::{self, Board};
 use crate::cmd::{budget::Budget, can::Can, growth::Growth, key, setup};
 use crate::guest;
+use crate::moonshine;
 use crate::process::{self, cargo};
 use crate::qemu::{self, Link};
 use crate::robots::{self, Bridge, Wanted};
@@ -53,6 +54,12 @@ impl Test {
             Err(error) => {
                 eprintln!("no python-can and cantools, so their test is skipped: {error:#}")
             }
+        }
+        match moonshine::install() {
+            Ok(place) => {
+                tests.env(moonshine::VARIABLE, place);
+            }
+            Err(why) => eprintln!("no Moonshine, so its tests are skipped: {why:#}"),
         }
         step("tests");
         process::run(&mut tests)?;

@@ -1,18 +1,27 @@
-//! Speech through a recogniser's own process: what it may hear follows from the vocabulary, what it
-//! heard comes back as alternatives with probabilities.
+//! Speech through a recogniser: what it may hear follows from the vocabulary, what it heard comes back
+//! as alternatives with probabilities.
 //!
-//! [`pocketsphinx`] drives Debian's packaged recogniser with its packaged English model on sound from
-//! a [`source`]; any other recogniser is plugged in by its lines ([`crate::language::Spoken::read`]).
+//! A [`Recogniser`] takes sound from a [`source`]: [`moonshine`] where it is installed, else
+//! [`pocketsphinx`], Debian's packaged recogniser with its packaged English model. Any other is plugged
+//! in by its lines ([`crate::language::Spoken::read`]).
 
 mod anything;
-pub mod jsgf;
+mod error;
+pub mod moonshine;
+mod paths;
+pub mod phrases;
 pub mod pocketsphinx;
 mod program;
 pub mod pronounce;
+mod recogniser;
+pub mod rule;
 pub mod segment;
 pub mod sound;
 pub mod source;
 
-pub use pocketsphinx::{Expected, Pocketsphinx, SpeechError};
+pub use error::SpeechError;
+pub use moonshine::Moonshine;
+pub use pocketsphinx::Pocketsphinx;
 pub use program::samples;
+pub use recogniser::{Expected, Kind, Recogniser};
 pub use source::{Ears, Heard, Source};

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,9 +10,11 @@ use std::thread;
 use tempfile::TempDir;
 
 use super::anything;
-use super::jsgf::{Only, Phrases};
+use super::error::SpeechError;
+use super::phrases::{Only, Phrases};
 use super::program::{file, run, write};
 use super::pronounce::Dictionary;
+use super::recogniser::Expected;
 use super::sound::{self, Colour};
 use crate::language::pack::Pack;
 use crate::language::{LanguageError, Spoken};
@@ -43,58 +44,6 @@ const COMFORT: f32 = 0.02;
 
 /// Texts further than this behind the best cannot count.
 const FARTHEST: f64 = 12.0;
-
-/// Why nothing was heard.
-#[derive(Debug, thiserror::Error)]
-pub enum SpeechError {
-    /// A program that is not installed, or that failed.
-    #[error("{program}: {why}")]
-    Program {
-        /// Which.
-        program: String,
-        /// What it said.
-        why: String,
-    },
-    /// A file that could not be read or written.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The vocabulary has nothing that this recogniser can hear.
-    #[error("no action of the vocabulary can be pronounced in this language")]
-    NoGrammar,
-    /// Nothing was understood.
-    #[error(transparent)]
-    Language(#[from] LanguageError),
-}
-
-impl SpeechError {
-    /// What the person can do about it.
-    #[must_use]
-    pub fn remedy(&self) -> String {
-        match self {
-            Self::Program { .. } => {
-                "install Debian's packages pocketsphinx, pocketsphinx-en-us, sox and alsa-utils"
-                    .into()
-            }
-            Self::File { .. } => "check that the file is there and can be read".into(),
-            Self::NoGrammar => "plug in a recogniser of that language by its lines".into(),
-            Self::Language(error) => error.remedy(),
-        }
-    }
-}
-
-/// What somebody is expected to say.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Expected {
-    /// A command.
-    Command,
-    /// The answer to a question: a name, yes or no.
-    Answer,
-}
 
 /// The recogniser with its grammars.
 #[derive(Debug)]
@@ -134,11 +83,11 @@ impl Pocketsphinx {
         write(&anything, &anything::grammar())?;
         let mut files = 0;
         let mut all = |list: Vec<Only>| {
-            let grammars = list.into_iter().filter_map(|only| phrases.grammar(only));
-            let written = grammars.map(|text| {
+            let rules = list.into_iter().filter_map(|only| phrases.rule(only));
+            let written = rules.map(|rule| {
                 files += 1;
                 let path = folder.path().join(format!("{files}.gram"));
-                write(&path, &text).map(|()| path)
+                write(&path, &rule.jsgf()).map(|()| path)
             });
             written.collect::<Result<Vec<_>, _>>()
         };

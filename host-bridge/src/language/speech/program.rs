@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::pocketsphinx::SpeechError;
+use super::error::SpeechError;
 use super::sound;
 
 /// The samples of a recording, any that sox reads.

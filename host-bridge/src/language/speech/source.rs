@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
 
-use super::pocketsphinx::{Expected, Pocketsphinx, SpeechError};
+use super::error::SpeechError;
+use super::recogniser::{Expected, Recogniser};
 use super::segment::Segmenter;
 use super::sound;
 use crate::language::{LONGEST, Spoken, text_of};
@@ -101,7 +102,7 @@ impl Ears {
     /// [`SpeechError`] for a program that is not installed, or a recording that is not there.
     pub fn open(
         source: &Source,
-        recogniser: impl FnOnce() -> Result<Pocketsphinx, SpeechError>,
+        recogniser: impl FnOnce() -> Result<Recogniser, SpeechError>,
     ) -> Result<Self, SpeechError> {
         let mut program = match source {
             Source::Microphone => microphone()?,
@@ -129,9 +130,9 @@ impl Ears {
             if matches!(source, Source::Lines(_)) {
                 thread::spawn(move || read_lines(output, &name, &to));
             } else {
-                let recogniser = recogniser()?;
+                let mut recogniser = recogniser()?;
                 let asked = Arc::clone(&asked);
-                thread::spawn(move || listen(output, &recogniser, &asked, &name, &to));
+                thread::spawn(move || listen(output, &mut recogniser, &asked, &name, &to));
             }
         }
         Ok(Self {
@@ -230,14 +231,14 @@ fn spoken(line: &[u8]) -> Result<Spoken, SpeechError> {
 
 fn listen(
     mut output: impl Read,
-    recogniser: &Pocketsphinx,
+    recogniser: &mut Recogniser,
     asked: &AtomicBool,
     name: &str,
     to: &Told,
 ) {
     let mut segmenter = Segmenter::default();
     let mut bytes = vec![0; 2 * sound::MOMENT];
-    let hear = |samples: &[i16]| {
+    let mut hear = |samples: &[i16]| {
         let expected = if asked.load(Ordering::Relaxed) {
             Expected::Answer
         } else {

@@ -5,10 +5,11 @@ use std::time::Instant;
 
 use anyhow::Context;
 use deictic::language::pack::Pack;
-use deictic::language::speech::pocketsphinx::{MODEL, Pocketsphinx, SCALE};
+use deictic::language::speech::moonshine::{self, LEAD, Scores};
+use deictic::language::speech::pocketsphinx::{self, MODEL, Pocketsphinx};
 use deictic::language::speech::sound::range;
-use deictic::language::speech::{Expected, samples};
-use deictic::language::{Listener, Uncertainty};
+use deictic::language::speech::{Expected, Kind, Recogniser, samples};
+use deictic::language::{LanguageError, Listener, Spoken, Uncertainty};
 use deictic::sensor_model::SensorModel;
 use deictic::vocabulary::Lexicon;
 use deictic_core::joint::Tables;
@@ -18,7 +19,7 @@ use indicatif::ProgressBar;
 
 /// Score speech from the voice to the decision, in whole intents.
 ///
-/// Utterances of every action are spoken by espeak-ng, with noise by sox, heard by pocketsphinx and
+/// Utterances of every action are spoken by espeak-ng, with noise by sox, heard by a recogniser and
 /// fused with a hand that points at the object. Wrong is what is executed and was not meant. Of talk
 /// between people nothing is to be executed.
 #[derive(clap::Args)]
@@ -32,7 +33,10 @@ pub struct Speech {
     /// How many of the voices
     #[arg(long, default_value_t = 6)]
     voices: usize,
-    /// Take the voices that the scale of scores is fitted on, and score several scales
+    /// What hears: moonshine, pocketsphinx, or best, which is moonshine where it is installed
+    #[arg(long, default_value = "best")]
+    recogniser: Kind,
+    /// Take the voices that the recognisers' figures are fitted on, and score several of them
     #[arg(long)]
     fit: bool,
     /// Print what was not done right
@@ -51,7 +55,10 @@ struct Score {
     talk: bool,
     /// In dB; `null` without noise.
     noise: Option<i32>,
+    recogniser: &'static str,
     scale: f64,
+    /// Moonshine's bar against talk.
+    lead: f64,
     utterances: usize,
     right: f64,
     wrong: f64,
@@ -64,16 +71,52 @@ struct Heard {
     said: Said,
     voice: &'static str,
     level: Option<i32>,
-    scores: Vec<(String, f64)>,
-    range: Option<f32>,
+    scores: Scored,
     seconds: f64,
+}
+
+/// What a recogniser made of it.
+enum Scored {
+    Moonshine(Scores),
+    Pocketsphinx(Vec<(String, f64)>, Option<f32>),
+}
+
+impl Scored {
+    fn of(recogniser: &mut Recogniser, sound: &[i16]) -> anyhow::Result<Self> {
+        Ok(match recogniser {
+            Recogniser::Moonshine(m) => Self::Moonshine(m.scores(sound, Expected::Command)?),
+            Recogniser::Pocketsphinx(p) => {
+                Self::Pocketsphinx(p.scores(sound, Expected::Command)?, range(sound))
+            }
+        })
+    }
+
+    fn weigh(&self, (scale, lead): (f64, f64)) -> Result<Spoken, LanguageError> {
+        match self {
+            Self::Moonshine(scores) => scores.weigh(scale, lead),
+            Self::Pocketsphinx(scores, range) => Pocketsphinx::weigh(scores, *range, scale),
+        }
+    }
+
+    /// The likeliest texts, for people.
+    fn told(&self) -> String {
+        let (all, free) = match self {
+            Self::Moonshine(scores) => (&scores.allowed, Some(&scores.free)),
+            Self::Pocketsphinx(scores, _) => (scores, None),
+        };
+        let best = all.iter().take(4).chain(free);
+        let best: Vec<_> = best
+            .map(|(text, score)| format!("{text} {score:.1}"))
+            .collect();
+        best.join(", ")
+    }
 }
 
 impl Speech {
     pub fn run(self) -> anyhow::Result<()> {
         let lexicon = Lexicon::tabletop().map_err(|e| anyhow::anyhow!("{e}"))?;
         let pack = Pack::built_in("en")?;
-        let recogniser = Pocketsphinx::new(&lexicon, &pack, Path::new(MODEL))?;
+        let mut recogniser = Recogniser::open(self.recogniser, &lexicon, &pack, Path::new(MODEL))?;
         let listener = Listener::new(&lexicon)?;
         let mut literal = listener.clone();
         literal.uncertainty = Uncertainty::LIKELIHOOD;
@@ -99,14 +142,11 @@ impl Speech {
                 },
             ),
         ];
-        let heard = self.hear(&lexicon, &pack, &recogniser)?;
-        let scales: &[f64] = match self.fit {
-            true => &[10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 100.0],
-            false => &[SCALE],
-        };
+        let heard = self.hear(&lexicon, &pack, &mut recogniser)?;
+        let (recogniser, figures) = self.figures(&recogniser);
         let mut scores = Vec::new();
         for (model, trial) in &trials {
-            for &scale in scales {
+            for &(scale, lead) in &figures {
                 for (talk, level) in [false, true]
                     .into_iter()
                     .flat_map(|t| LEVELS.map(|l| (t, l)))
@@ -114,8 +154,8 @@ impl Speech {
                     let of_level = heard
                         .iter()
                         .filter(|h| h.level == level && h.said.truth[0].is_none() == talk);
-                    let mut score = self.score(of_level, level, scale, trial);
-                    (score.model, score.talk) = (model, talk);
+                    let mut score = self.score(of_level, level, (scale, lead), trial);
+                    (score.model, score.talk, score.recogniser) = (model, talk, recogniser);
                     scores.push(score);
                 }
             }
@@ -123,23 +163,48 @@ impl Speech {
         if self.json {
             return super::print_json(&scores);
         }
-        println!("model  said      noise    scale  right  wrong  asked  seconds");
+        println!("heard by {recogniser}");
+        println!("model  said      noise    scale  lead  right  wrong  asked  seconds");
         for s in &scores {
             let noise = s.noise.map_or("none".to_owned(), |n| format!("{n} dB"));
             let said = if s.talk { "talk" } else { "commands" };
             println!(
-                "{:<6} {said:<9} {noise:<7} {:>6.0} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
-                s.model, s.scale, s.right, s.wrong, s.asked, s.seconds
+                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
+                s.model, s.scale, s.lead, s.right, s.wrong, s.asked, s.seconds
             );
         }
         Ok(())
+    }
+
+    /// The recogniser's name, and the scales and leads that are scored.
+    fn figures(&self, recogniser: &Recogniser) -> (&'static str, Vec<(f64, f64)>) {
+        let grid = |scales: &[f64], leads: &[f64]| {
+            let all = scales
+                .iter()
+                .flat_map(|&s| leads.iter().map(move |&l| (s, l)));
+            all.collect()
+        };
+        match (recogniser, self.fit) {
+            (Recogniser::Moonshine(_), false) => ("moonshine", vec![(moonshine::SCALE, LEAD)]),
+            (Recogniser::Moonshine(_), true) => {
+                let leads = [3.4, 3.8, 4.2, 4.6, 5.0];
+                ("moonshine", grid(&[0.7, 1.0, 1.5, 2.0], &leads))
+            }
+            (Recogniser::Pocketsphinx(_), false) => {
+                ("pocketsphinx", vec![(pocketsphinx::SCALE, 0.0)])
+            }
+            (Recogniser::Pocketsphinx(_), true) => {
+                let scales = [10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 100.0];
+                ("pocketsphinx", grid(&scales, &[0.0]))
+            }
+        }
     }
 
     fn hear(
         &self,
         lexicon: &Lexicon,
         pack: &Pack,
-        recogniser: &Pocketsphinx,
+        recogniser: &mut Recogniser,
     ) -> anyhow::Result<Vec<Heard>> {
         let (voices, seed) = if self.fit {
             (FITTED, self.seed + 1_000_000)
@@ -159,14 +224,13 @@ impl Speech {
                     let recording = speak(folder.path(), voice, &said, level)?;
                     let began = Instant::now();
                     let sound = samples(&recording)?;
-                    let scores = recogniser.scores(&sound, Expected::Command)?;
+                    let scores = Scored::of(recogniser, &sound)?;
                     let said = said.clone();
                     all.push(Heard {
                         said,
                         voice,
                         level,
                         scores,
-                        range: range(&sound),
                         seconds: began.elapsed().as_secs_f64(),
                     });
                     bar.inc(1);
@@ -181,23 +245,21 @@ impl Speech {
         &self,
         heard: impl Iterator<Item = &'a Heard>,
         noise: Option<i32>,
-        scale: f64,
+        (scale, lead): (f64, f64),
         trial: &Trial<'_>,
     ) -> Score {
         let (mut counts, mut utterances, mut seconds) = ([0_usize; 3], 0, 0.0);
         for h in heard {
-            let answer = match Pocketsphinx::weigh(&h.scores, h.range, scale) {
+            let answer = match h.scores.weigh((scale, lead)) {
                 Ok(spoken) => trial.decide(&h.said, &spoken),
                 Err(error) => Answer::Asked(error.to_string()),
             };
             if self.verbose && answer != Answer::Right {
-                let best = h.scores.iter().take(4).map(|(t, s)| format!("{t} {s}"));
-                let best: Vec<_> = best.collect();
                 eprintln!(
                     "{noise:?} {}: {} -> {answer:?}; {}",
                     h.voice,
                     h.said.text,
-                    best.join(", ")
+                    h.scores.told()
                 );
             }
             counts[match answer {
@@ -213,7 +275,9 @@ impl Speech {
             model: "",
             talk: false,
             noise,
+            recogniser: "",
             scale,
+            lead,
             utterances,
             right: share(counts[0]),
             wrong: share(counts[1]),

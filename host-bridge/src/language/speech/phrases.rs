@@ -1,13 +1,14 @@
-//! JSGF grammars over a vocabulary, one per meaning that is held against the others.
+//! What may be said over a vocabulary, as one rule for all of it or restricted to one meaning.
 //!
-//! A recogniser's own list of alternatives is mostly one sentence in many wordings. So each option of
-//! a category gets a grammar of all commands that have it: how well the sound fits the best of them
-//! tells how probable the option is.
+//! A recogniser whose list of alternatives is mostly one sentence in many wordings gets a rule per
+//! option of a category, of all commands that have it: how well the sound fits the best of them tells
+//! how probable the option is.
 
 use std::collections::BTreeSet;
 
 use deictic_core::category::Category;
 
+use super::rule::Rule;
 use crate::language::pack::{Pack, Speech};
 use crate::language::token::{Kind, tokens};
 use crate::vocabulary::Lexicon;
@@ -24,15 +25,19 @@ pub struct Phrases {
     left_out: Vec<String>,
 }
 
-/// What a grammar is to be restricted to.
+/// What a rule is to be restricted to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Only {
+    /// Any command.
+    Command,
     /// Commands with this option of the action, the object or the storage.
     Option(Category, usize),
     /// Commands that are forbidden.
     Forbidden,
     /// The name of this option alone, as an answer to a question.
     Name(Category, usize),
+    /// What is told the robot itself.
+    Order,
     /// Yes.
     Yes,
     /// No, none of them.
@@ -70,9 +75,16 @@ impl Phrases {
         let actions: Vec<_> = actions
             .into_iter()
             .enumerate()
-            .map(|(a, phrases)| {
+            .map(|(a, mut phrases)| {
                 let object = needs(a, Category::OBJECT);
-                (phrases, object, needs(a, Category::STORAGE))
+                let storage = needs(a, Category::STORAGE);
+                // "put on the cup into the drawer" is said by nobody, and sounds like "put the cup".
+                let goes = |w: &str| speech.preposition.iter().any(|p| p == w);
+                let open = |p: &String| p.split(' ').skip(1).any(goes);
+                if storage && !phrases.iter().all(open) {
+                    phrases.retain(|p| !open(p));
+                }
+                (phrases, object, storage)
             })
             .collect();
         let said = actions.iter().any(|(phrases, ..)| !phrases.is_empty());
@@ -105,6 +117,7 @@ impl Phrases {
             &speech.place,
             &speech.yes,
             &speech.no,
+            &speech.order,
         ];
         let names = self.actions.iter().map(|(phrases, ..)| phrases);
         let names = names.chain(&self.objects).chain(&self.storages);
@@ -119,8 +132,14 @@ impl Phrases {
         options(Category::ACTION, self.actions.len())
             .chain(options(Category::OBJECT, self.objects.len()))
             .chain(options(Category::STORAGE, self.storages.len()))
-            .chain([Only::Forbidden])
+            .chain([Only::Forbidden, Only::Order])
             .collect()
+    }
+
+    /// Whatever may be commanded, forbidden, or told the robot itself.
+    #[must_use]
+    pub fn any_command(&self) -> Vec<Only> {
+        vec![Only::Command, Only::Forbidden, Only::Order]
     }
 
     /// All that answers are held against.
@@ -134,29 +153,28 @@ impl Phrases {
             .collect()
     }
 
-    /// The grammar of what is left under a restriction; `None` when nothing is.
+    /// What is left under a restriction; `None` when nothing is.
     #[must_use]
-    pub fn grammar(&self, only: Only) -> Option<String> {
+    pub fn rule(&self, only: Only) -> Option<Rule> {
         let list = match only {
-            Only::Option(..) | Only::Forbidden => return self.of_commands(only),
+            Only::Command | Only::Option(..) | Only::Forbidden => return self.of_commands(only),
             Only::Name(Category::ACTION, o) => &self.actions.get(o)?.0,
             Only::Name(Category::OBJECT, o) => self.objects.get(o)?,
             Only::Name(_, o) => self.storages.get(o)?,
+            Only::Order => &self.speech.order,
             Only::Yes => &self.speech.yes,
             Only::No => &self.speech.no,
         };
         let determiner = match only {
-            Only::Name(c, _) if c != Category::ACTION => optional(&self.speech.determiner),
-            _ => String::new(),
+            Only::Name(c, _) if c != Category::ACTION => Rule::maybe_of(&self.speech.determiner),
+            _ => None,
         };
-        let polite = optional(&self.speech.polite);
-        let names = (!list.is_empty()).then(|| list.join(" | "))?;
-        Some(format!(
-            "{HEAD}public <utterance> = {determiner} ({names}) {polite};\n"
-        ))
+        let polite = Rule::maybe_of(&self.speech.polite);
+        let names = Rule::any_of(list)?;
+        Some(all([determiner, Some(names), polite]))
     }
 
-    fn of_commands(&self, only: Only) -> Option<String> {
+    fn of_commands(&self, only: Only) -> Option<Rule> {
         let fits = |category: Category, option: usize| match only {
             Only::Option(c, o) => c != category || o == option,
             _ => true,
@@ -165,64 +183,54 @@ impl Phrases {
         let (object, storage) = (fixed(Category::OBJECT), fixed(Category::STORAGE));
         let names = |category: Category, all: &[Vec<String>]| {
             let fitting = all.iter().enumerate().filter(|(o, _)| fits(category, *o));
-            fitting.flat_map(|(_, p)| p.clone()).collect::<Vec<_>>()
+            Rule::any_of(&fitting.flat_map(|(_, p)| p.clone()).collect::<Vec<_>>())
         };
         let verbs = |takes_object: bool, takes_storage: bool| {
             let fitting = self.actions.iter().enumerate().filter(|(a, (_, o, s))| {
                 fits(Category::ACTION, *a) && (*o, *s) == (takes_object, takes_storage)
             });
-            fitting
-                .flat_map(|(_, (p, ..))| p.clone())
-                .collect::<Vec<_>>()
+            let phrases = fitting.flat_map(|(_, (p, ..))| p.clone());
+            Rule::any_of(&phrases.collect::<Vec<_>>())
         };
         let speech = &self.speech;
-        let determiner = optional(&speech.determiner);
+        let determiner = || Rule::maybe_of(&speech.determiner);
+        let shown = |list: &[String], fixed: bool| Rule::any_of(list).filter(|_| !fixed);
         let targets = names(Category::OBJECT, &self.objects);
-        let mut target = choice(&targets).map(|names| format!("{determiner} {names}"));
-        if let Some(shown) = choice(&speech.pointed).filter(|_| !object) {
-            target = Some(target.map_or(shown.clone(), |t| format!("({t} | {shown})")));
-        }
+        let targets = targets.map(|names| all([determiner(), Some(names)]));
+        let target = either([targets, shown(&speech.pointed, object)]);
         let goals = names(Category::STORAGE, &self.storages);
-        let preposition = choice(&speech.preposition).unwrap_or_default();
-        let mut goal = choice(&goals).map(|names| format!("{preposition} {determiner} {names}"));
-        if let Some(shown) = choice(&speech.place).filter(|_| !storage) {
-            goal = Some(goal.map_or(shown.clone(), |g| format!("({g} | {shown})")));
-        }
-        let aside = match choice(&self.directions) {
-            Some(directions) => format!("[{directions}]"),
-            None => String::new(),
+        let preposition = Rule::any_of(&speech.preposition);
+        let goals = goals.map(|names| all([preposition, determiner(), Some(names)]));
+        let goal = either([goals, shown(&speech.place, storage)]);
+        let aside = Rule::maybe_of(&self.directions);
+        let alone = verbs(false, false).filter(|_| !object && !storage);
+        let one = match (verbs(true, false), &target, storage) {
+            (Some(one), Some(target), false) => Some(all([Some(one), Some(target.clone()), aside])),
+            _ => None,
         };
-        let mut commands = Vec::new();
-        if let Some(alone) = choice(&verbs(false, false)).filter(|_| !object && !storage) {
-            commands.push(alone);
-        }
-        if let (Some(one), Some(target), false) = (choice(&verbs(true, false)), &target, storage) {
-            commands.push(format!("{one} {target} {aside}"));
-        }
-        if let (Some(two), Some(target), Some(goal)) = (choice(&verbs(true, true)), &target, &goal)
-        {
-            commands.push(format!("{two} {target} {goal}"));
-        }
-        let commands = choice(&commands)?;
-        let polite = optional(&speech.polite);
+        let two = match (verbs(true, true), target, goal) {
+            (Some(two), Some(target), Some(goal)) => Some(Rule::All(vec![two, target, goal])),
+            _ => None,
+        };
+        let commands = either([alone, one, two])?;
         let not = match only {
-            Only::Forbidden => choice(&speech.not)?,
-            _ => String::new(),
+            Only::Forbidden => Some(Rule::any_of(&speech.not)?),
+            _ => None,
         };
-        Some(format!(
-            "{HEAD}public <utterance> = {polite} {not} {commands} {polite};\n"
-        ))
+        let polite = || Rule::maybe_of(&speech.polite);
+        Some(all([polite(), not, Some(commands), polite()]))
     }
 }
 
-const HEAD: &str = "#JSGF V1.0;\ngrammar commands;\n";
-
-fn choice(list: &[String]) -> Option<String> {
-    (!list.is_empty()).then(|| format!("({})", list.join(" | ")))
+/// What there is of these, one after another.
+fn all<const N: usize>(rules: [Option<Rule>; N]) -> Rule {
+    Rule::All(rules.into_iter().flatten().collect())
 }
 
-fn optional(list: &[String]) -> String {
-    choice(list).map_or_else(String::new, |c| format!("[{c}]"))
+/// What there is of these, one of them.
+fn either<const N: usize>(rules: [Option<Rule>; N]) -> Option<Rule> {
+    let rules: Vec<_> = rules.into_iter().flatten().collect();
+    (!rules.is_empty()).then_some(Rule::Any(rules))
 }
 
 /// The words of a phrase alone, as a dictionary has them.
@@ -253,7 +261,10 @@ mod tests {
         let option = |category: Category, name: &str| {
             let entries = lexicon.entries(category).iter();
             let at = entries.enumerate().find(|(_, e)| e.name == name).unwrap().0;
-            phrases.grammar(Only::Option(category, at)).unwrap()
+            phrases
+                .rule(Only::Option(category, at))
+                .unwrap()
+                .to_string()
         };
         let pick = option(Category::ACTION, "pick");
         assert!(pick.contains("grasp") && !pick.contains("crackers"));
@@ -263,23 +274,21 @@ mod tests {
         assert!(foam.contains("put") && !foam.contains("grasp") && !foam.contains("release"));
         let up = option(Category::ACTION, "move-up");
         assert!(up.contains("go up") && !up.contains("halt"));
-        let not = phrases.grammar(Only::Forbidden).unwrap();
+        let stack = option(Category::ACTION, "stack");
+        assert!(stack.contains("pile") && !stack.contains("put on"));
+        let not = phrases.rule(Only::Forbidden).unwrap().to_string();
         assert!(not.contains("(don't | do not | never) ("));
     }
 
     #[test]
     fn answers_are_names() {
         let (_, phrases) = tabletop();
-        let cup = phrases.grammar(Only::Name(Category::OBJECT, 1)).unwrap();
+        let cup = phrases.rule(Only::Name(Category::OBJECT, 1)).unwrap();
+        let cup = cup.to_string();
         assert!(cup.contains("[(the)] (cup | mug)"), "{cup}");
         assert_eq!(phrases.answers().len(), 9 + 5 + 4 + 2);
-        assert!(
-            phrases
-                .answers()
-                .iter()
-                .all(|&a| phrases.grammar(a).is_some())
-        );
-        assert_eq!(phrases.grammar(Only::Name(Category::OBJECT, 99)), None);
+        assert!(phrases.answers().iter().all(|&a| phrases.rule(a).is_some()));
+        assert_eq!(phrases.rule(Only::Name(Category::OBJECT, 99)), None);
     }
 
     #[test]
@@ -287,12 +296,11 @@ mod tests {
         let (_, phrases) = tabletop();
         let words = phrases.words();
         for only in phrases.commands().into_iter().chain(phrases.answers()) {
-            let grammar = phrases.grammar(only).unwrap();
-            let body = grammar.split_once('=').unwrap().1;
-            let listed = body
-                .split(|c: char| "()[]|; \n".contains(c))
+            let rule = phrases.rule(only).unwrap().to_string();
+            let listed = rule
+                .split(|c: char| "()[]| ".contains(c))
                 .filter(|w| !w.is_empty());
-            assert!(listed.clone().all(|w| words.contains(w)), "{grammar}");
+            assert!(listed.clone().all(|w| words.contains(w)), "{rule}");
         }
     }
 

@@ -1,0 +1,91 @@
+//! The recognisers that sound is given to.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use super::error::SpeechError;
+use super::moonshine::{self, Moonshine};
+use super::pocketsphinx::Pocketsphinx;
+use crate::language::Spoken;
+use crate::language::pack::Pack;
+use crate::vocabulary::Lexicon;
+
+/// What somebody is expected to say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// A command.
+    Command,
+    /// The answer to a question: a name, yes or no.
+    Answer,
+}
+
+/// Which recogniser.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// Moonshine where it is installed, else pocketsphinx.
+    #[default]
+    Best,
+    /// Moonshine.
+    Moonshine,
+    /// Debian's pocketsphinx.
+    Pocketsphinx,
+}
+
+impl FromStr for Kind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "best" => Ok(Self::Best),
+            "moonshine" => Ok(Self::Moonshine),
+            "pocketsphinx" => Ok(Self::Pocketsphinx),
+            _ => Err("there are: best, moonshine, pocketsphinx".into()),
+        }
+    }
+}
+
+/// A recogniser with the rules of a vocabulary.
+#[derive(Debug)]
+pub enum Recogniser {
+    /// From the package `moonshine-voice`.
+    Moonshine(Box<Moonshine>),
+    /// Debian's.
+    Pocketsphinx(Pocketsphinx),
+}
+
+impl Recogniser {
+    /// Opens one; `sphinx` is the folder of pocketsphinx's model.
+    ///
+    /// # Errors
+    /// [`SpeechError`] when it is not installed, or the vocabulary has nothing that it can hear.
+    pub fn open(
+        kind: Kind,
+        lexicon: &Lexicon,
+        pack: &Pack,
+        sphinx: &Path,
+    ) -> Result<Self, SpeechError> {
+        let moonshine = |folder: &Path| {
+            let opened = Moonshine::new(lexicon, pack, folder)?;
+            Ok(Self::Moonshine(Box::new(opened)))
+        };
+        match (kind, moonshine::installed()) {
+            (Kind::Best | Kind::Moonshine, Some(folder)) => moonshine(&folder),
+            (Kind::Moonshine, None) => Err(SpeechError::Model {
+                path: moonshine::place(),
+                why: "Moonshine is not installed there".into(),
+            }),
+            _ => Pocketsphinx::new(lexicon, pack, sphinx).map(Self::Pocketsphinx),
+        }
+    }
+
+    /// What is said in one utterance, samples of [`super::sound::RATE`].
+    ///
+    /// # Errors
+    /// [`SpeechError`].
+    pub fn hear(&mut self, samples: &[i16], expected: Expected) -> Result<Spoken, SpeechError> {
+        match self {
+            Self::Moonshine(moonshine) => moonshine.hear(samples, expected),
+            Self::Pocketsphinx(pocketsphinx) => pocketsphinx.hear(samples, expected),
+        }
+    }
+}
