@@ -44,7 +44,7 @@ pub(crate) fn mixed<
         ..
     } = situation;
     let mut aligned = Alignment::NONE;
-    aligned.fill(observations);
+    aligned.fill(observations, profile.align);
     let mut scratch = [0.0; N];
     trace.restart(vocabulary.options());
     for (q, &options) in vocabulary.options().iter().enumerate() {

@@ -19,7 +19,7 @@ pub enum Model {
     /// Merge, alpha and beta: unaligned features too.
     M3,
     /// The posterior over whole intents: see [`crate::joint`]. Of the profile it takes the
-    /// threshold, the weights and whether it is guarded.
+    /// threshold, the alignment, the weights and whether it is guarded.
     Joint,
 }
 
@@ -83,6 +83,15 @@ pub enum Presence {
     Sum(f32),
 }
 
+/// Which words of different modalities speak of the same thing: see [`crate::align`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Align {
+    /// Those of one category, whatever their places.
+    Category,
+    /// Those at one place of their sentences (the paper, eq. 3), where absent words keep theirs.
+    Position,
+}
+
 /// What a modality that lacks a word contributes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Missing {
@@ -126,6 +135,8 @@ pub struct Profile {
     pub beta: BetaScope,
     /// When a category counts as present.
     pub presence: Presence,
+    /// Which words of different modalities speak of the same thing.
+    pub align: Align,
     /// What a modality that lacks a word contributes.
     pub missing: Missing,
     /// By how much the best option must lead the next.
@@ -157,6 +168,7 @@ impl Profile {
         signature_penalty: 0.2,
         beta: BetaScope::Clear,
         presence: Presence::Probability,
+        align: Align::Category,
         missing: Missing::Skip,
         lead: 0.01,
         least_h: 0.01,

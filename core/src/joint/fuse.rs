@@ -3,6 +3,7 @@
 use super::belief::Belief;
 use super::outcome::outcome;
 use super::posterior::Marginal;
+use crate::align::corresponds;
 use crate::category::{Category, CategorySet};
 use crate::decision::Decision;
 use crate::math::larger;
@@ -61,7 +62,12 @@ pub fn fuse<const N: usize, const C: usize, const F: usize, const E: usize, cons
             continue;
         };
         let modality = usize::from(sentence.modality());
-        let words = sentence.words();
+        let words = sentence.words().iter().enumerate();
+        let words = words.filter(|(place, word)| {
+            let align = profile.align;
+            !word.likelihoods().is_empty() && corresponds(observations, align, modality, *place)
+        });
+        let words = words.map(|(_, word)| word);
         let Some(spoken) = gather(words, modality, vocabulary.options(), &mut said, present) else {
             continue;
         };
@@ -119,14 +125,14 @@ fn marginal<const N: usize>(word: &mut CategoryTrace<N>) -> Marginal<'_> {
 /// that there are words of, `None` when there is no word at all. A word whose likelihoods are all 0
 /// counts here: noise may have clipped it.
 fn gather<'a, const C: usize, const N: usize>(
-    words: &'a [Word<C, N>],
+    words: impl Iterator<Item = &'a Word<C, N>>,
     modality: usize,
     options: &[u8],
     said: &mut [[Option<&'a Word<C, N>>; MODALITIES]; C],
     present: &mut [f32],
 ) -> Option<CategorySet> {
     let mut spoken = None;
-    for word in words.iter().filter(|word| !word.likelihoods().is_empty()) {
+    for word in words {
         let spoken = spoken.get_or_insert(CategorySet::EMPTY);
         let (q, p) = likeliest(word.categories(), present);
         let place = said.get_mut(q).and_then(|said| said.get_mut(modality));

@@ -28,7 +28,7 @@ use deictic_core::joint::posterior::Triple;
 use deictic_core::joint::{self, Tables};
 use deictic_core::judgement::judge;
 use deictic_core::merge::Merge;
-use deictic_core::profile::{Model, Profile};
+use deictic_core::profile::{Align, Model, Profile};
 use deictic_core::protocol::seal::{Key, Nonces, Way};
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::slcan::{Adapter, Lines, line};
@@ -113,7 +113,7 @@ macro_rules! decision {
             asked,
             likelihoods: any([1.0, 0.5]),
         });
-        let aligned = Alignment::of(&observed);
+        let aligned = Alignment::of(&observed, any(Align::Position));
         black_box((
             aligned.presence(any(Category::OBJECT)),
             aligned.slot(any(Category::ACTION)).len(),

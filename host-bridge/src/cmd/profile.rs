@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use deictic_core::merge::Merge;
-use deictic_core::profile::{Model, Profile, Threshold};
+use deictic_core::profile::{Align, Model, Profile, Threshold};
 
 use crate::language::Uncertainty;
 
@@ -22,6 +22,9 @@ pub struct Choice {
     /// What makes an option clear [default: entropy; of the joint model: risk]
     #[arg(long, value_enum)]
     threshold: Option<ThresholdName>,
+    /// Which words of different modalities speak of the same thing
+    #[arg(long, value_enum, default_value_t = AlignName::Category)]
+    align: AlignName,
     /// The share of commands that may be executed wrongly; for the risk threshold
     #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
     risk: f32,
@@ -66,6 +69,14 @@ enum ThresholdName {
     Risk,
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum AlignName {
+    /// Those of one category, in whatever order they were said and shown
+    Category,
+    /// Those at one place of their sentences, as in the paper
+    Position,
+}
+
 impl Choice {
     /// How sure a word is: the paper's models weigh figures against each other by their entropy, and
     /// the joint model takes them for the likelihoods that they are.
@@ -101,7 +112,11 @@ impl Choice {
             ThresholdName::Fixed => Threshold::FIXED,
             ThresholdName::Risk => Threshold::Risk { rate: self.risk },
         };
-        match (self.profile, model, threshold) {
+        let align = match self.align {
+            AlignName::Category => Align::Category,
+            AlignName::Position => Align::Position,
+        };
+        let profile = match (self.profile, model, threshold) {
             (Named::Paper, Model::Baseline, _) => Profile::BASELINE,
             (_, Model::Joint, _) => Profile {
                 threshold,
@@ -122,6 +137,7 @@ impl Choice {
                 threshold,
                 ..Profile::reference_entropy(model, merge)
             },
-        }
+        };
+        Profile { align, ..profile }
     }
 }

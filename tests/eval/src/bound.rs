@@ -10,31 +10,9 @@ use crate::catalogue::Catalogue;
 use crate::dataset::Set;
 use crate::free;
 use crate::generate::{Kind, raised};
+use crate::maker::Maker;
 use crate::noise::{Level, Noise};
 use crate::record::{CATEGORIES, MODALITIES, Record, Triple};
-
-/// How a set was made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Maker {
-    /// As the paper's sets.
-    Paper(Kind, Level),
-    /// As [`free`].
-    Free(Level),
-}
-
-impl Maker {
-    /// Of a set with one of the usual names, such as `D_arity_n3`.
-    #[must_use]
-    pub fn of(name: &str) -> Option<Self> {
-        let (kind, level) = name.rsplit_once("_n")?;
-        let level = *Level::ALL.get(level.parse::<usize>().ok()?)?;
-        if kind == "D_free" {
-            return Some(Self::Free(level));
-        }
-        let kind = Kind::ALL.into_iter().find(|k| k.name() == kind)?;
-        Some(Self::Paper(kind, level))
-    }
-}
 
 /// How many of how many are right.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

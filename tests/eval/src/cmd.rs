@@ -1,11 +1,14 @@
 //! One file per subcommand.
 
 mod ablate;
+mod align;
 mod bound;
 mod calibrate;
 mod clarify;
 mod generate;
 mod gestures;
+mod made;
+mod modalities;
 mod paper;
 mod parity;
 mod reliability;
@@ -20,11 +23,13 @@ use clap::Subcommand;
 #[derive(Subcommand)]
 pub enum Command {
     Ablate(ablate::Ablate),
+    Align(align::Align),
     Bound(bound::Bound),
     Calibrate(calibrate::Calibrate),
     Clarify(clarify::Clarify),
     Generate(generate::Generate),
     Gestures(gestures::Gestures),
+    Modalities(modalities::Modalities),
     Paper(paper::Paper),
     Parity(parity::Parity),
     Reliability(reliability::Reliability),
@@ -39,11 +44,13 @@ impl Command {
     pub fn run(self) -> anyhow::Result<()> {
         match self {
             Self::Ablate(command) => command.run(),
+            Self::Align(command) => command.run(),
             Self::Bound(command) => command.run(),
             Self::Calibrate(command) => command.run(),
             Self::Clarify(command) => command.run(),
             Self::Generate(command) => command.run(),
             Self::Gestures(command) => command.run(),
+            Self::Modalities(command) => command.run(),
             Self::Paper(command) => command.run(),
             Self::Parity(command) => command.run(),
             Self::Reliability(command) => command.run(),

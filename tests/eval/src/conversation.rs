@@ -8,15 +8,13 @@
 
 use deictic_core::board;
 use deictic_core::category::Category;
-use deictic_core::clarify::choose::choose;
 use deictic_core::clarify::{Confirmation, QUESTIONS};
-use deictic_core::decide::{Decision, Kind as Asks, Outcome};
+use deictic_core::decide::{Decision, Outcome};
 use deictic_core::joint::belief::Belief;
 use deictic_core::joint::posterior::Triple as Asked;
 use deictic_core::joint::sensors::ELSEWHERE;
 use deictic_core::profile::Profile;
 use deictic_core::sentence::LANGUAGE;
-use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -24,53 +22,17 @@ use rayon::prelude::*;
 use crate::answer::Judge;
 use crate::catalogue::Catalogue;
 use crate::dataset::Set;
-use crate::free;
-use crate::generate::{self, Kind};
-use crate::noise::{Level, Noise};
+use crate::maker::Maker;
 use crate::order::Order;
 use crate::record::{CATEGORIES, Record, Triple, Words};
 use crate::sensing::Sensing;
-use crate::situation::{FeatureForm, Prepared};
+use crate::situation::Prepared;
 use crate::variant::ProfileName;
 
-/// Which question is put when one is needed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Strategy {
-    /// The core's: the largest expected gain per cost.
-    Gain,
-    /// Always a yes or no to the likeliest intent.
-    Confirm,
-    /// Any of the yes or no and the categories of the likeliest intent, by chance.
-    Random,
-    /// Everything is said once more, and counts as more of the same.
-    Again,
-    /// Everything is said and shown once more, and what was before is forgotten.
-    Repeat,
-}
+mod strategy;
 
-impl Strategy {
-    /// All, the core's first.
-    pub const ALL: [Self; 5] = [
-        Self::Gain,
-        Self::Confirm,
-        Self::Random,
-        Self::Again,
-        Self::Repeat,
-    ];
-}
-
-/// What is put to the person.
-#[derive(Clone, Copy, Debug)]
-enum Put {
-    /// Yes or no to the likeliest intent.
-    Confirm,
-    /// An option of a category.
-    Which(Category),
-    /// Everything once more.
-    Again,
-    /// Everything from the beginning.
-    Over,
-}
+use strategy::Put;
+pub use strategy::Strategy;
 
 /// One look at a command.
 #[derive(Clone, Copy, Debug)]
@@ -90,11 +52,7 @@ pub struct Talk<'a> {
     order: Order,
     vocabulary: board::Vocabulary,
     sensing: Sensing,
-    form: FeatureForm,
-    /// `None`: D_free.
-    kind: Option<Kind>,
-    /// The noise level.
-    pub level: Level,
+    maker: Maker,
 }
 
 impl<'a> Talk<'a> {
@@ -103,14 +61,7 @@ impl<'a> Talk<'a> {
     /// # Errors
     /// When the core refuses the catalogue's tables.
     pub fn new(set: &'a Set, catalogue: &'a Catalogue) -> anyhow::Result<Option<Self>> {
-        let Some((kind, level)) = set.name.rsplit_once("_n") else {
-            return Ok(None);
-        };
-        let level = Level::ALL
-            .into_iter()
-            .find(|l| l.number().to_string() == level);
-        let known = Kind::ALL.into_iter().find(|k| k.name() == kind);
-        let Some(level) = level.filter(|_| known.is_some() || kind == "D_free") else {
+        let Some(maker) = Maker::of(&set.name) else {
             return Ok(None);
         };
         let order = Order::own(catalogue);
@@ -120,13 +71,7 @@ impl<'a> Talk<'a> {
             vocabulary: catalogue.vocabulary(&order),
             sensing: Sensing::new(catalogue, &order)?,
             order,
-            form: if known.is_some() {
-                FeatureForm::Sure
-            } else {
-                FeatureForm::Graded
-            },
-            kind: known,
-            level,
+            maker,
         }))
     }
 
@@ -167,7 +112,7 @@ impl<'a> Talk<'a> {
                 self.catalogue,
                 &self.order,
                 &self.vocabulary,
-                self.form,
+                self.maker.form(),
             )
         };
         // Without a cut everything is looked at to the end, whatever would have been executed.
@@ -201,7 +146,7 @@ impl<'a> Talk<'a> {
                 return Ok(looks);
             }
             left -= 1;
-            let question = self.question(&decision, &trace, strategy, rng);
+            let question = strategy.question(&decision, &trace, rng);
             match question {
                 Put::Confirm => {
                     self.confirm(&mut sample, &decision, record.truth, rng);
@@ -223,48 +168,18 @@ impl<'a> Talk<'a> {
                     }
                 }
                 Put::Again => {
-                    let words = self.inside(&self.words(record, usize::from(LANGUAGE), rng));
+                    let language = usize::from(LANGUAGE);
+                    let words = self.maker.words(self.catalogue, record, language, rng);
+                    let words = self.inside(&words);
                     sample.answer(&words, &self.vocabulary)?;
                 }
                 Put::Over => {
-                    said.words = std::array::from_fn(|m| self.words(record, m, rng));
+                    let maker = self.maker;
+                    said.words =
+                        std::array::from_fn(|m| maker.words(self.catalogue, record, m, rng));
                     sample = prepare(&said)?;
                 }
             }
-        }
-    }
-
-    /// The question that a strategy puts.
-    fn question(
-        &self,
-        decision: &Decision<{ board::CATEGORIES }>,
-        trace: &board::Trace,
-        strategy: Strategy,
-        rng: &mut impl Rng,
-    ) -> Put {
-        let Some(best) = decision.best.as_ref() else {
-            return Put::Over;
-        };
-        match strategy {
-            Strategy::Gain => {
-                let question = match &decision.outcome {
-                    Outcome::Ask(question) => Some(question.clone()),
-                    _ => choose(best, trace),
-                };
-                match question {
-                    None => Put::Over,
-                    Some(question) if question.kind == Asks::Confirm => Put::Confirm,
-                    Some(question) => Put::Which(question.category),
-                }
-            }
-            Strategy::Confirm => Put::Confirm,
-            Strategy::Random => {
-                let mut all = vec![Put::Confirm, Put::Which(Category::ACTION)];
-                all.extend(best.parameters.iter().map(|p| Put::Which(p.category)));
-                all.choose(rng).copied().unwrap_or(Put::Confirm)
-            }
-            Strategy::Again => Put::Again,
-            Strategy::Repeat => Put::Over,
         }
     }
 
@@ -279,7 +194,7 @@ impl<'a> Talk<'a> {
             return;
         };
         let yes = self.judge().triple(best) == truth;
-        let noise = self.noise(usize::from(LANGUAGE));
+        let noise = self.maker.noise(usize::from(LANGUAGE));
         let levels = if yes {
             [1.0, ELSEWHERE]
         } else {
@@ -293,26 +208,12 @@ impl<'a> Talk<'a> {
 
     /// A word of the language for an option, as heard, in the core's order.
     fn word(&self, category: Category, option: u8, rng: &mut impl Rng) -> (Category, Vec<f32>) {
-        let noise = self.noise(usize::from(LANGUAGE));
+        let noise = self.maker.noise(usize::from(LANGUAGE));
         let c = category.index();
         let row = &self.catalogue.similarity[usize::from(LANGUAGE)][c][usize::from(option)];
         let places = self.order.places(c).iter();
         let heard = places.map(|&j| noise.observe(f64::from(row[usize::from(j)]), rng) as f32);
         (category, heard.collect())
-    }
-
-    /// What a modality observes when all is said once more.
-    fn words(&self, record: &Record, modality: usize, rng: &mut impl Rng) -> Words {
-        match self.kind {
-            Some(kind) => {
-                let action = usize::from(record.truth.action);
-                let raised = generate::raised(self.catalogue, kind, record, action);
-                let noise = self.level.into();
-                let (catalogue, truth) = (self.catalogue, record.truth);
-                generate::words(catalogue, kind, modality, truth, &raised, noise, rng)
-            }
-            None => free::words(self.catalogue, modality, record.truth, self.level, rng),
-        }
     }
 
     /// Words in the core's order.
@@ -324,13 +225,6 @@ impl<'a> Talk<'a> {
                 Some((category, places.map(|&j| word[usize::from(j)]).collect()))
             })
             .collect()
-    }
-
-    fn noise(&self, modality: usize) -> Noise {
-        match self.kind {
-            Some(_) => self.level.into(),
-            None => free::noise(self.level, modality),
-        }
     }
 
     fn judge(&self) -> Judge<'_> {

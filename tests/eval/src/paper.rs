@@ -6,9 +6,10 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::bound::{self, Bound, Maker};
+use crate::bound::{self, Bound};
 use crate::catalogue::Catalogue;
 use crate::dataset::Set;
+use crate::maker::Maker;
 use crate::score::{Field, Tally};
 use crate::situation::FeatureForm;
 use crate::variant::{MergeName, ModelName, ProfileName, ThresholdName, Variant};

@@ -2,6 +2,8 @@
 
 use deictic_core::board;
 use deictic_core::profile::Profile;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -11,9 +13,9 @@ use crate::catalogue::Catalogue;
 use crate::dataset::Set;
 use crate::interval::wilson;
 use crate::order::Order;
-use crate::record::Triple;
+use crate::record::{Record, Triple};
 use crate::sensing::Sensing;
-use crate::situation::{FeatureForm, Prepared};
+use crate::situation::{FeatureForm, Prepared, in_order};
 use crate::variant::{ProfileName, Variant};
 
 /// A data set in the core's types, to be decided by many variants.
@@ -101,21 +103,49 @@ impl<'a> Field<'a> {
             ProfileName::Reference => Order::of_the_reference(catalogue),
         }
         .unwrap_or_else(|| Order::own(catalogue));
-        let vocabulary = catalogue.vocabulary(&order);
-        let sensing = Sensing::new(catalogue, &order)?;
-        let samples = set
-            .records
-            .iter()
-            .enumerate()
+        let words = |record: &Record, _: &mut ChaCha8Rng| {
+            let words = record.words.iter().map(|words| in_order(words, &order));
+            words.collect::<anyhow::Result<Vec<_>>>()
+        };
+        Self::observed(set, catalogue, habits, &order, form, 0, words)
+    }
+
+    /// Translates a set of which each sample is observed in a way of its own: `words` gives every
+    /// modality's, from 0 on, in the core's order of options. What it draws starts from `seed` anew
+    /// for every sample.
+    ///
+    /// # Errors
+    /// Which sample the core refuses, and why.
+    pub fn observed(
+        set: &Set,
+        catalogue: &'a Catalogue,
+        habits: ProfileName,
+        order: &Order,
+        form: FeatureForm,
+        seed: u64,
+        words: impl Fn(&Record, &mut ChaCha8Rng) -> anyhow::Result<Vec<Vec<board::Word>>>,
+    ) -> anyhow::Result<Self> {
+        let vocabulary = catalogue.vocabulary(order);
+        let sensing = Sensing::new(catalogue, order)?;
+        let prepare = |i: u64, record: &Record| {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            rng.set_stream(i);
+            let mut prepared = Prepared::silent(record, catalogue, order, &vocabulary, form)?;
+            for (modality, words) in (0_u8..).zip(words(record, &mut rng)?) {
+                prepared.observe(modality, &words, &vocabulary)?;
+            }
+            Ok((prepared, record.truth))
+        };
+        let samples = (0_u64..)
+            .zip(&set.records)
             .map(|(i, record)| {
-                let prepared = Prepared::new(record, catalogue, &order, &vocabulary, form)
-                    .map_err(|e| e.context(format!("{}, sample {i}", set.name)))?;
-                Ok((prepared, record.truth))
+                prepare(i, record)
+                    .map_err(|e: anyhow::Error| e.context(format!("{}, sample {i}", set.name)))
             })
             .collect::<anyhow::Result<_>>()?;
         Ok(Self {
             catalogue,
-            order,
+            order: order.clone(),
             vocabulary,
             sensing,
             name: set.name.clone(),
@@ -133,7 +163,14 @@ impl<'a> Field<'a> {
     /// When the variant is of another profile than the field was made for.
     pub fn tally(&self, variant: &Variant) -> anyhow::Result<Tally> {
         assert_eq!(variant.profile, self.habits, "made for another profile");
-        let settings = variant.settings();
+        self.decide(&variant.settings())
+    }
+
+    /// Decides all samples with any settings, on all cores.
+    ///
+    /// # Errors
+    /// The core's, for settings that cannot be.
+    pub fn decide(&self, settings: &Profile) -> anyhow::Result<Tally> {
         let judge = self.judge();
         self.samples
             .par_chunks(64)
@@ -142,7 +179,7 @@ impl<'a> Field<'a> {
                 let mut tally = Tally::default();
                 for (prepared, truth) in chunk {
                     let answer = judge
-                        .answer(prepared, &settings, &mut trace)
+                        .answer(prepared, settings, &mut trace)
                         .map_err(|e| anyhow::anyhow!("{}: the core refuses: {e:?}", self.name))?;
                     tally.add(answer, *truth);
                 }

@@ -9,12 +9,13 @@ use deictic_core::profile::{Profile, ProfileError};
 use deictic_core::sentence::{ANSWER, LANGUAGE};
 
 use crate::catalogue::Catalogue;
+use crate::gaze::{self, GAZE};
 use crate::order::Order;
 use crate::record::{CATEGORIES, MODALITIES};
 use crate::situation::Prepared;
 
-/// Room for nine tables of 16 options.
-const BYTES: usize = 9 * 256;
+/// Room for eleven tables of 16 options.
+const BYTES: usize = 11 * 256;
 
 /// The tables of a catalogue with options in some order.
 #[derive(Clone, Debug)]
@@ -48,6 +49,9 @@ impl Sensing {
                     if m as u8 == LANGUAGE {
                         // Questions are answered by voice.
                         set(ANSWER)?;
+                    }
+                    if m == gaze::TABLES && category != Category::ACTION {
+                        set(GAZE)?;
                     }
                 }
             }

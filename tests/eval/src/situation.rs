@@ -9,7 +9,7 @@ use deictic_core::sentence::ANSWER;
 
 use crate::catalogue::Catalogue;
 use crate::order::Order;
-use crate::record::{CATEGORIES, Record, Thing};
+use crate::record::{CATEGORIES, Record, Thing, Words};
 
 /// In which form the core sees a feature of a thing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -42,6 +42,24 @@ impl Prepared {
         vocabulary: &board::Vocabulary,
         form: FeatureForm,
     ) -> anyhow::Result<Self> {
+        let mut sample = Self::silent(record, catalogue, order, vocabulary, form)?;
+        for (modality, words) in (0_u8..).zip(&record.words) {
+            sample.observe(modality, &in_order(words, order)?, vocabulary)?;
+        }
+        Ok(sample)
+    }
+
+    /// The scene of a sample, of which nothing was observed yet.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub fn silent(
+        record: &Record,
+        catalogue: &Catalogue,
+        order: &Order,
+        vocabulary: &board::Vocabulary,
+        form: FeatureForm,
+    ) -> anyhow::Result<Self> {
         let mut scene = board::Scene::new(0);
         for category in 1..CATEGORIES {
             for thing in record.things(category) {
@@ -51,30 +69,31 @@ impl Prepared {
                     .map_err(|e| anyhow::anyhow!("the core refuses the scene: {e:?}"))?;
             }
         }
-        let mut observations = board::Observations::new();
-        for (modality, words) in (0_u8..).zip(&record.words) {
-            let mut sentence = board::Sentence::new(modality);
-            for (c, word) in words.iter().enumerate() {
-                let (Some(word), Some(category)) = (word, Category::from_index(c)) else {
-                    continue;
-                };
-                let likelihoods: Vec<f32> = order
-                    .places(c)
-                    .iter()
-                    .map(|&option| word[usize::from(option)])
-                    .collect();
-                board::Word::certain(category, &likelihoods)
-                    .and_then(|word| sentence.push(word))
-                    .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))?;
-            }
-            observations
-                .insert(sentence, vocabulary)
-                .map_err(|e| anyhow::anyhow!("the core refuses a sentence: {e:?}"))?;
-        }
         Ok(Self {
             scene,
-            observations,
+            observations: board::Observations::new(),
         })
+    }
+
+    /// Adds what a modality observed, in place of what it had.
+    ///
+    /// # Errors
+    /// The core's own, in words.
+    pub fn observe(
+        &mut self,
+        modality: u8,
+        words: &[board::Word],
+        vocabulary: &board::Vocabulary,
+    ) -> anyhow::Result<()> {
+        let mut sentence = board::Sentence::new(modality);
+        for word in words {
+            sentence
+                .push(word.clone())
+                .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))?;
+        }
+        self.observations
+            .insert(sentence, vocabulary)
+            .map_err(|e| anyhow::anyhow!("the core refuses a sentence: {e:?}"))
     }
 
     /// Adds the answer to a question, a word of this category with options in the core's order.
@@ -122,6 +141,26 @@ impl Prepared {
             sensors: Tables::NONE,
         }
     }
+}
+
+/// Words that surely are of their categories, in the core's order of options; absent ones are left
+/// out.
+///
+/// # Errors
+/// The core's own, in words.
+pub fn in_order(words: &Words, order: &Order) -> anyhow::Result<Vec<board::Word>> {
+    let mut said = Vec::new();
+    for (c, word) in words.iter().enumerate() {
+        let (Some(word), Some(category)) = (word, Category::from_index(c)) else {
+            continue;
+        };
+        let places = order.places(c).iter();
+        let likelihoods: Vec<f32> = places.map(|&option| word[usize::from(option)]).collect();
+        let word = board::Word::certain(category, &likelihoods)
+            .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))?;
+        said.push(word);
+    }
+    Ok(said)
 }
 
 fn entity(

@@ -4,7 +4,7 @@ use std::fmt;
 
 use clap::ValueEnum;
 use deictic_core::merge::Merge;
-use deictic_core::profile::{Model, Profile, Threshold};
+use deictic_core::profile::{Align, Model, Profile, Threshold};
 use deictic_core::sentence::MODALITIES;
 
 /// Which penalties apply.
@@ -58,6 +58,25 @@ pub enum ProfileName {
     Reference,
 }
 
+/// Which words of different modalities speak of the same thing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum AlignName {
+    /// Those of one category.
+    #[default]
+    Category,
+    /// Those at one place of their sentences: the paper's rule.
+    Position,
+}
+
+impl From<AlignName> for Align {
+    fn from(name: AlignName) -> Self {
+        match name {
+            AlignName::Category => Self::Category,
+            AlignName::Position => Self::Position,
+        }
+    }
+}
+
 macro_rules! display_as_on_the_command_line {
     ($($name:ty),*) => {$(
         impl fmt::Display for $name {
@@ -71,7 +90,7 @@ macro_rules! display_as_on_the_command_line {
     )*};
 }
 
-display_as_on_the_command_line!(ModelName, MergeName, ThresholdName, ProfileName);
+display_as_on_the_command_line!(ModelName, MergeName, ThresholdName, ProfileName, AlignName);
 
 /// One variant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use deictic_eval::bound::{Maker, of};
+use deictic_eval::bound::of;
 use deictic_eval::catalogue::Catalogue;
 use deictic_eval::dataset;
 use deictic_eval::free;
 use deictic_eval::generate::{Kind, set};
+use deictic_eval::maker::Maker;
 use deictic_eval::noise::Level;
 use deictic_eval::score::Field;
 use deictic_eval::situation::FeatureForm;

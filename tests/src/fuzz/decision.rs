@@ -7,7 +7,7 @@ use deictic_core::feasibility::{alignment, alpha, signature_mismatch};
 use deictic_core::fuse::{Situation, fuse};
 use deictic_core::joint::Tables;
 use deictic_core::judgement::judge;
-use deictic_core::profile::{Model, Profile, Threshold};
+use deictic_core::profile::{Align, Model, Profile, Threshold};
 use deictic_core::sentence::MODALITIES;
 use deictic_core::vocabulary::{Requirement, Signature};
 use deictic_core::{entropy, merge};
@@ -37,6 +37,11 @@ pub fn run(bytes: &[u8]) {
     let vocabulary = situation::vocabulary(&mut source);
     let scene = situation::scene(&mut source, &vocabulary);
     let observations = situation::observations(&mut source, &vocabulary);
+    // Last, so that inputs found before there was a choice mean what they did.
+    let profile = Profile {
+        align: source.pick(&[Align::Category, Align::Position]),
+        ..profile
+    };
     let mut trace = Trace::new();
     let decision = decide(&vocabulary, &scene, &observations, &profile, &mut trace);
     check(&decision, &trace, &vocabulary, &profile);

@@ -3,8 +3,8 @@
 use deictic_core::board::{Observations, Scene, Vocabulary, Word};
 use deictic_core::category::Category;
 use deictic_core::merge::Merge;
-use deictic_core::profile::{BetaScope, Missing, Model, Presence, Profile};
-use deictic_core::sentence::MODALITIES;
+use deictic_core::profile::{Align, BetaScope, Missing, Model, Presence, Profile};
+use deictic_core::sentence::{ANSWER, MODALITIES};
 use deictic_core::vocabulary::Requirement;
 
 use super::{Margin, Merged, cross_entropy, decide, is_faint, normalised};
@@ -16,11 +16,51 @@ pub struct Penalties {
     pub beta: Vec<f64>,
 }
 
+/// What the words at one place of their sentences speak of: the category with the most probability
+/// over all modalities but answers.
+fn category_at(observations: &Observations, place: usize) -> Option<usize> {
+    let sentences = observations.iter().filter(|s| s.modality() != ANSWER);
+    let there: Vec<&Word> = sentences
+        .filter_map(|s| s.words().get(place))
+        .filter(|word| !word.likelihoods().is_empty())
+        .collect();
+    let sum = |q: usize| -> f32 {
+        let p = there.iter().map(|word| word.categories().get(q));
+        p.map(|p| p.copied().unwrap_or(0.0)).sum()
+    };
+    if there.is_empty() {
+        return None;
+    }
+    // Of equals `max_by` takes the last that it sees: the first category.
+    let all = (0..Category::LIMIT).rev();
+    all.max_by(|&a, &b| sum(a).total_cmp(&sum(b)))
+}
+
+/// The words of a modality that say something where they stand.
+fn words<'a>(
+    observations: &'a Observations,
+    profile: &Profile,
+    modality: u8,
+) -> impl Iterator<Item = &'a Word> {
+    let by_place = profile.align == Align::Position && modality != ANSWER;
+    let words = observations.get(modality).map_or(&[][..], |s| s.words());
+    let words = words.iter().enumerate().filter(move |(place, word)| {
+        let own = word.category().map(Category::index);
+        word.is_present() && (!by_place || own == category_at(observations, *place))
+    });
+    words.map(|(_, word)| word)
+}
+
 /// The word of one modality that speaks of a category: of several the one likeliest to, the last among equals.
-fn spoken(observations: &Observations, modality: u8, category: Category) -> Option<&Word> {
-    let words = observations.get(modality)?.words().iter();
+fn spoken<'a>(
+    observations: &'a Observations,
+    profile: &Profile,
+    modality: u8,
+    category: Category,
+) -> Option<&'a Word> {
     let mut best: Option<(&Word, f32)> = None;
-    for word in words.filter(|w| w.is_present() && w.category() == Some(category)) {
+    let words = words(observations, profile, modality);
+    for word in words.filter(|word| word.category() == Some(category)) {
         let p = word.categories()[category.index()];
         if best.is_none_or(|(_, least)| p >= least) {
             best = Some((word, p));
@@ -32,15 +72,13 @@ fn spoken(observations: &Observations, modality: u8, category: Category) -> Opti
 /// How surely a category was expressed.
 fn presence(observations: &Observations, profile: &Profile, category: Category) -> f64 {
     match profile.presence {
-        Presence::Probability => observations
-            .iter()
-            .flat_map(|sentence| sentence.words())
-            .filter(|word| word.is_present())
+        Presence::Probability => (0..MODALITIES as u8)
+            .flat_map(|modality| words(observations, profile, modality))
             .filter_map(|word| word.categories().get(category.index()))
             .fold(0.0, |most, &p| f64::max(most, f64::from(p))),
         Presence::Sum(least) => {
             let visible = (0..MODALITIES as u8).any(|modality| {
-                spoken(observations, modality, category)
+                spoken(observations, profile, modality, category)
                     .is_some_and(|word| word.likelihoods().iter().sum::<f32>() > least)
             });
             f64::from(u8::from(visible))
@@ -58,16 +96,16 @@ pub fn category(
     let options = vocabulary.options_of(category);
     let mut merged: Option<Vec<f64>> = None;
     let modalities = || 0..MODALITIES as u8;
-    let anyone = modalities().any(|m| spoken(observations, m, category).is_some());
+    let anyone = modalities().any(|m| spoken(observations, profile, m, category).is_some());
     for modality in modalities().filter(|_| anyone) {
-        let word: Vec<f64> = match spoken(observations, modality, category) {
+        let word: Vec<f64> = match spoken(observations, profile, modality, category) {
             Some(word) => word.likelihoods().iter().map(|&w| f64::from(w)).collect(),
             None if profile.missing == Missing::Zero && observations.get(modality).is_some() => {
                 vec![0.0; options]
             }
             None => continue,
         };
-        let said = spoken(observations, modality, category).is_some();
+        let said = spoken(observations, profile, modality, category).is_some();
         let word = if profile.penalised && said {
             let epsilon = f64::from(deictic_core::entropy::EPSILON);
             let (_, h) = cross_entropy(&word);

@@ -1,27 +1,16 @@
 //! `deictic-eval bound`
 
-use std::path::PathBuf;
-
-use deictic_eval::bound::{Maker, of};
-use deictic_eval::catalogue::Catalogue;
-use deictic_eval::dataset::{self, Set};
-use deictic_eval::generate::{self, Kind};
-use deictic_eval::noise::Level;
-use deictic_eval::{free, interval::wilson};
+use deictic_eval::bound::of;
+use deictic_eval::interval::wilson;
 use serde::Serialize;
+
+use super::made::Made;
 
 /// Compute how often the best method can be right that knows how the sets were made.
 #[derive(clap::Args)]
 pub struct Bound {
-    /// Folder with sets of the usual names (D_A_n0 ... D_free_n4) [default: sets made here]
-    #[arg(long, value_name = "DIR")]
-    sets: Option<PathBuf>,
-    /// Samples per set where sets are made
-    #[arg(long, default_value_t = 1000, value_parser = super::at_least_one)]
-    samples: usize,
-    /// Seed of sets made here
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    #[command(flatten)]
+    made: Made,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -40,16 +29,10 @@ struct Row {
 
 impl Bound {
     pub fn run(self) -> anyhow::Result<()> {
-        let (catalogue, sets) = match &self.sets {
-            Some(folder) => dataset::read_folder(folder)?,
-            None => self.made(),
-        };
+        let (catalogue, sets) = self.made.sets()?;
         let mut rows = Vec::new();
-        for set in &sets {
-            let Some(maker) = Maker::of(&set.name) else {
-                anyhow::bail!("{}: it is not known how this set was made", set.name);
-            };
-            let bound = of(&catalogue, set, maker);
+        for (maker, set) in &sets {
+            let bound = of(&catalogue, set, *maker);
             rows.push(Row {
                 file: set.name.clone(),
                 n: bound.n,
@@ -71,19 +54,5 @@ impl Bound {
             );
         }
         Ok(())
-    }
-
-    fn made(&self) -> (Catalogue, Vec<Set>) {
-        let (catalogue, recipe) = Catalogue::papers();
-        let (n, seed) = (self.samples, self.seed);
-        let mut sets = Vec::new();
-        for level in Level::ALL {
-            for kind in Kind::ALL {
-                sets.push(generate::set(&catalogue, &recipe, kind, level, n, seed));
-            }
-            sets.push(free::set(&catalogue, &recipe, level, n, seed));
-        }
-        sets.sort_by(|a, b| a.name.cmp(&b.name));
-        (catalogue, sets)
     }
 }

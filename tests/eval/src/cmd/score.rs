@@ -2,10 +2,13 @@
 
 use std::path::PathBuf;
 
+use deictic_core::profile::{Profile, ProfileError, Threshold};
+use deictic_eval::calibration::RISKS;
 use deictic_eval::dataset;
+use deictic_eval::maker::Maker;
 use deictic_eval::score::{Field, Score as Result};
 use deictic_eval::situation::FeatureForm;
-use deictic_eval::variant::{MergeName, ModelName, ProfileName, ThresholdName, Variant};
+use deictic_eval::variant::{AlignName, MergeName, ModelName, ProfileName, ThresholdName, Variant};
 
 /// Score a variant of the method on every set in a folder.
 ///
@@ -28,9 +31,15 @@ pub struct Score {
     /// Whose habits the core follows
     #[arg(long, value_enum, default_value = "paper")]
     profile: ProfileName,
-    /// In which form the core sees features
-    #[arg(long, value_enum, default_value = "sure")]
-    features: FeatureForm,
+    /// Which words of different modalities speak of the same thing
+    #[arg(long, value_enum, default_value = "category")]
+    align: AlignName,
+    /// The share of all commands that may be executed wrongly; for the risk threshold
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
+    risk: f32,
+    /// In which form the core sees features [default: graded of D_free, else sure]
+    #[arg(long, value_enum)]
+    features: Option<FeatureForm>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -40,10 +49,22 @@ impl Score {
     pub fn run(self) -> anyhow::Result<()> {
         let (catalogue, sets) = dataset::read_folder(&self.sets)?;
         let variant = Variant::new(self.model, self.merge, self.threshold, self.profile);
+        let mut settings = Profile {
+            align: self.align.into(),
+            ..variant.settings()
+        };
+        if let Threshold::Risk { rate } = &mut settings.threshold {
+            *rate = self.risk;
+        }
+        if let Err(error) = settings.check() {
+            anyhow::bail!("{}", wrong(error));
+        }
         let mut scores = Vec::new();
         for set in &sets {
-            let field = Field::new(set, &catalogue, self.profile, self.features)?;
-            scores.push(Result::new(&set.name, &variant, &field.tally(&variant)?));
+            let usual = Maker::of(&set.name).map_or(FeatureForm::Sure, Maker::form);
+            let form = self.features.unwrap_or(usual);
+            let field = Field::new(set, &catalogue, self.profile, form)?;
+            scores.push(Result::new(&set.name, &variant, &field.decide(&settings)?));
         }
         if self.json {
             return super::print_json(&scores);
@@ -69,5 +90,19 @@ impl Score {
             );
         }
         Ok(())
+    }
+}
+
+/// What is wrong with settings, and what to do.
+fn wrong(error: ProfileError) -> String {
+    match error {
+        ProfileError::Risk => format!(
+            "--risk must be below 1 and at least {}, the smallest that there is a cut for",
+            RISKS[0]
+        ),
+        ProfileError::ModelAndThreshold => {
+            "--threshold risk is for --model joint, which takes no other but none".to_owned()
+        }
+        other => format!("these settings cannot be: {other:?}"),
     }
 }
