@@ -6,9 +6,9 @@ use crate::math;
 use crate::vocabulary::{Action, Requirement};
 
 /// How often a modality says nothing of a category that the action needs.
-const SILENT: f32 = 0.003;
+pub const SILENT: f32 = 0.003;
 /// How often it speaks of one that the action does not take.
-const SURPLUS: f32 = 0.001;
+pub const SURPLUS: f32 = 0.001;
 /// The costs of `SILENT` and of `SURPLUS`; those of their contraries are below a half.
 const SILENT_COST: u16 = 268;
 const SURPLUS_COST: u16 = 319;

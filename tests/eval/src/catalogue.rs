@@ -3,6 +3,7 @@
 
 use deictic_core::board;
 use deictic_core::category::Category;
+use deictic_core::joint::fit::product;
 use deictic_core::vocabulary::{Action, Requirement, Signature};
 use thiserror::Error;
 
@@ -121,6 +122,25 @@ impl Catalogue {
             Some(kind) => thing.kind.is_some_and(|t| usize::from(t) == kind),
         };
         wanted.iter().all(holds) && !unwanted.iter().any(holds)
+    }
+
+    /// How likely a thing meets an action's requirement of its category: the product of its features'
+    /// likelihoods; 0 where there is no such requirement.
+    #[must_use]
+    pub fn likelihood(&self, action: usize, category: usize, thing: &Thing) -> f64 {
+        let Some(action) = self.actions.get(action) else {
+            return 0.0;
+        };
+        let requirement = match category {
+            1 => action.object,
+            2 => action.storage,
+            _ => return 0.0,
+        };
+        let features = thing.features.iter().map(|f| f.likelihood);
+        let kinds = (0_u8..).take(self.types.len());
+        let kinds = kinds.map(|t| f32::from(u8::from(thing.kind == Some(t))));
+        let likelihoods: Vec<f32> = features.chain(kinds).collect();
+        f64::from(product(requirement, &likelihoods))
     }
 
     /// Whether the scene has all that an action needs.

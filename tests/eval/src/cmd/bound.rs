@@ -1,6 +1,6 @@
 //! `deictic-eval bound`
 
-use deictic_eval::bound::of;
+use deictic_eval::bound::{Untold, without};
 use deictic_eval::interval::wilson;
 use serde::Serialize;
 
@@ -11,6 +11,9 @@ use super::made::Made;
 pub struct Bound {
     #[command(flatten)]
     made: Made,
+    /// What it is not told of how D_free was made, but takes as the joint model does
+    #[arg(long, value_enum, default_value = "nothing")]
+    untold: Untold,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -20,6 +23,7 @@ pub struct Bound {
 #[derive(Serialize)]
 struct Row {
     file: String,
+    untold: Untold,
     n: usize,
     triple: f64,
     triple_interval_95: [f64; 2],
@@ -32,9 +36,10 @@ impl Bound {
         let (catalogue, sets) = self.made.sets()?;
         let mut rows = Vec::new();
         for (maker, set) in &sets {
-            let bound = of(&catalogue, set, *maker);
+            let bound = without(&catalogue, set, *maker, self.untold);
             rows.push(Row {
                 file: set.name.clone(),
+                untold: self.untold,
                 n: bound.n,
                 triple: bound.percent(bound.triple),
                 triple_interval_95: wilson(bound.triple as usize, bound.n),
