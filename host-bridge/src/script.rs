@@ -69,6 +69,9 @@ pub struct Turn {
     pub seed: u64,
     /// What is answered to a question.
     pub answer: Option<String>,
+    /// Decide this one by the joint model, whatever decides the others.
+    #[serde(default)]
+    pub joint: bool,
     /// Say stop when the robot begins this motion, counted from 1.
     pub stop_at: Option<usize>,
 }

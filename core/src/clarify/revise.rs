@@ -89,6 +89,7 @@ impl Posterior<'_> {
             belief: Belief {
                 posterior: math::clamp_unit(sum.largest * per_total),
                 noise,
+                ..Belief::NONE
             },
             shares,
             level: most.1,

@@ -1,12 +1,14 @@
 //! How far a posterior can be trusted: a confidence that means what it says, and the cut that keeps
 //! wrong executions rare.
 //!
-//! The confidence is the posterior's logit, scaled and shifted by the noise that was heard (Platt's
-//! scaling, linear between the levels). It is never told the noise. `calibration` holds the
-//! figures: fitted to generated samples, the cut by learn-then-test (Angelopoulos et al. 2021),
-//! whose program and assumptions are in `deictic-eval calibrate`.
+//! The confidence is the logits of the posterior and of its action's marginal, scaled and shifted by
+//! the noise that was heard and by how many kinds of words there were (Platt's scaling, linear
+//! between the levels): doubt about the action means another thing than as much doubt about the
+//! object, and one word tells less of the noise than three. It is never told the noise.
+//! `calibration` holds the figures: fitted to generated samples, the cut by learn-then-test
+//! (Angelopoulos et al. 2021), whose program and assumptions are in `deictic-eval calibrate`.
 
-use super::calibration::{CUTS, OFFSET, RISKS, SLOPE};
+use super::calibration::{ACTION, CUTS, OFFSET, RISKS, SLOPE};
 use super::{LEVELS, Levels};
 use crate::clarify::calibration::{EARLY, LAST};
 use crate::math::{self, clamp_unit, larger};
@@ -39,11 +41,18 @@ impl Look {
     }
 }
 
+/// Kinds of words that the confidence tells apart: an action alone, with one thing, with two.
+pub const KINDS: usize = 3;
+
 /// What the joint model believes of its best intent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Belief {
     /// The best intent's posterior, 0..=1.
     pub posterior: f32,
+    /// The posterior of its action, whatever its parameters, 0..=1.
+    pub action: f32,
+    /// How many of actions, objects and storages were spoken of; 0 counts as 1.
+    pub kinds: u8,
     /// The noise that was heard, as the mean level of all branches: 0 (as measured on real gestures)
     /// to 3 (standard deviation 0.6).
     pub noise: f32,
@@ -53,14 +62,27 @@ impl Belief {
     /// Nothing believed.
     pub const NONE: Self = Self {
         posterior: 0.0,
+        action: 0.0,
+        kinds: 0,
         noise: 0.0,
     };
 
     /// Logit of the confidence.
     #[must_use]
     pub fn logit(&self) -> f32 {
-        let logit = logit(self.posterior);
-        between(&SLOPE, self.noise) * logit + between(&OFFSET, self.noise)
+        let at = |tables: &[Levels; KINDS]| {
+            let knots = tables.get(self.kind());
+            knots.map_or(0.0, |knots| between(knots, self.noise))
+        };
+        at(&SLOPE) * logit(self.posterior) + at(&ACTION) * logit(self.action) + at(&OFFSET)
+    }
+
+    /// Which of the [`KINDS`] it is.
+    #[must_use]
+    pub fn kind(&self) -> usize {
+        usize::from(self.kinds)
+            .saturating_sub(1)
+            .min(KINDS.saturating_sub(1))
     }
 
     /// The probability that the best intent is what was meant, on the samples it was fitted to.
@@ -99,28 +121,33 @@ impl Belief {
 #[must_use]
 pub fn logit(p: f32) -> f32 {
     let p = clamp_unit(p);
-    let ln = |x: f32| math::ln(larger(x, 1e-9));
-    (ln(p) - ln(1.0 - p)).clamp(-FARTHEST, FARTHEST)
+    let odds = larger(p, 1e-9) / larger(1.0 - p, 1e-9);
+    math::ln(odds).clamp(-FARTHEST, FARTHEST)
+}
+
+/// The level below a noise, the last but one at most, and how far above it the noise is, 0..=1.
+fn place(noise: f32) -> (usize, f32) {
+    let last = LEVELS.saturating_sub(2);
+    let level = (noise as usize).min(last);
+    (level, clamp_unit(noise - level as f32))
 }
 
 /// How much each level's figure counts at a noise between them: 1 in all.
 #[must_use]
 pub fn shares(noise: f32) -> Levels {
+    let (level, above) = place(noise);
     let mut shares = [0.0; LEVELS];
-    let mut knot = 0.0;
-    for share in &mut shares {
-        *share = larger(0.0, 1.0 - (noise - knot).abs());
-        knot += 1.0;
+    for (share, part) in shares.iter_mut().skip(level).zip([1.0 - above, above]) {
+        *share = part;
     }
     shares
 }
 
 fn between(knots: &Levels, noise: f32) -> f32 {
-    let mut sum = 0.0;
-    for (knot, share) in knots.iter().zip(shares(noise)) {
-        sum += knot * share;
-    }
-    sum
+    let (level, above) = place(noise);
+    let at = |level: usize| knots.get(level).copied().unwrap_or(0.0);
+    let low = at(level);
+    low + above * (at(level.saturating_add(1)) - low)
 }
 
 #[cfg(test)]
@@ -146,8 +173,19 @@ mod tests {
     #[test]
     fn more_posterior_is_more_confidence() {
         for noise in [0.0, 0.7, 1.0, 2.5, 3.0] {
-            let of = |posterior| Belief { posterior, noise }.confidence();
-            assert!(of(0.3) < of(0.6) && of(0.6) < of(0.99), "noise {noise}");
+            for kinds in 0..5 {
+                let of = |posterior| {
+                    let belief = Belief {
+                        posterior,
+                        action: posterior,
+                        kinds,
+                        noise,
+                    };
+                    belief.confidence()
+                };
+                let [low, middle, high] = [0.3, 0.6, 0.99].map(of);
+                assert!(low < middle && middle < high, "noise {noise}, {kinds}");
+            }
         }
     }
 }

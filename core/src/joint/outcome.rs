@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use super::belief::Look;
+use super::belief::{Belief, Look};
 use super::cost::OCTAVE;
 use super::fit::product;
 use super::posterior::Found;
@@ -56,10 +56,12 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
     trace: &mut Trace<C, N>,
     decision: &mut Decision<C>,
 ) {
-    let mut spoken = false;
+    let (mut spoken, mut kinds) = (false, 0_u8);
     let used = situation.vocabulary.options().len();
-    for word in trace.categories_mut().iter_mut().take(used) {
-        spoken |= word.present > 0.0;
+    for (q, word) in trace.categories_mut().iter_mut().enumerate().take(used) {
+        let present = word.present > 0.0;
+        spoken |= present;
+        kinds = kinds.saturating_add(u8::from(present && q <= Category::STORAGE.index()));
         let (marginal, weights) = word.merged_and_h();
         word.judgement = settle(marginal, weights, found.is_some());
         word.entropy = 0.0;
@@ -70,7 +72,13 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
     }
     let action_spoken = present(trace, Category::ACTION);
     if let Some(found) = &found {
-        trace.belief = found.belief;
+        let actions = trace.category(Category::ACTION).map(|word| word.merged());
+        let action = actions.and_then(|p| p.get(usize::from(found.best.action)).copied());
+        trace.belief = Belief {
+            action: action.unwrap_or(0.0),
+            kinds,
+            ..found.belief
+        };
     }
     let Some(found) = found.filter(|_| action_spoken) else {
         let reason = if action_spoken {

@@ -153,6 +153,7 @@ impl Posterior<'_> {
             belief: Belief {
                 posterior: math::clamp_unit(share * per_total),
                 noise,
+                ..Belief::NONE
             },
             shares: levels.each_ref().map(|level| level.share * per_total),
             level: most.1,

@@ -62,6 +62,11 @@ impl<'a> Conversation<'a> {
         self.sensors = sensors;
     }
 
+    /// From now on this one understands what is said.
+    pub fn listen_by(&mut self, listener: &'a Listener<'a>) {
+        self.listener = listener;
+    }
+
     /// What is said next is observed as it was typed; what was said before stays as it was observed.
     pub fn answer_clearly(&mut self) {
         self.sensors = None;

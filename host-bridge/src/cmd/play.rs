@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
-use deictic_core::decide::Outcome;
+use deictic_core::decide::{Kind, Outcome};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::time::Micros;
 use miette::Result;
@@ -88,6 +88,8 @@ impl Play {
         };
         let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
         listener.uncertainty = self.choice.uncertainty();
+        let mut whole = listener.clone();
+        whole.uncertainty = self.choice.joint().uncertainty();
         let configuration = Configuration {
             profile: self.choice.profile(),
             // Nobody has to find the time to point: what is shown comes with what is said.
@@ -117,6 +119,13 @@ impl Play {
             printer.object(&json!({
                 "event": "turn", "number": number, "of": of, "kind": turn.kind, "note": turn.note,
             }));
+            let (choice, listener) = match turn.joint {
+                true => (self.choice.joint(), &whole),
+                false => (self.choice, &listener),
+            };
+            // A unit that cannot be told is lost, which the session tells.
+            let _ = session.decide_by(choice.profile());
+            conversation.listen_by(listener);
             let made_up = turn.noise.map(|n| Sensors::new(&lexicon, n, turn.seed));
             conversation.observe_by(&mut session, made_up);
             rows.push(play(
@@ -224,6 +233,9 @@ impl Row {
         match happening {
             Happening::Decided { decision, .. } => self.decided.push(match &decision.outcome {
                 Outcome::Execute(intent) => explain::intent(intent, session.lexicon()),
+                Outcome::Ask(question) if question.kind == Kind::Confirm => {
+                    "asks yes or no".to_owned()
+                }
                 Outcome::Ask(question) => {
                     format!(
                         "asks which {}",

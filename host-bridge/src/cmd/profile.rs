@@ -78,6 +78,16 @@ enum AlignName {
 }
 
 impl Choice {
+    /// The same with the joint model and its usual threshold.
+    #[must_use]
+    pub fn joint(self) -> Self {
+        Self {
+            model: ModelName::Joint,
+            threshold: None,
+            ..self
+        }
+    }
+
     /// How sure a word is: the paper's models weigh figures against each other by their entropy, and
     /// the joint model takes them for the likelihoods that they are.
     pub fn uncertainty(self) -> Uncertainty {

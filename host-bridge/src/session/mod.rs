@@ -20,7 +20,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use deictic_core::category::Category;
 use deictic_core::decide::Question;
 use deictic_core::large::{self, Intent, Sentence};
-use deictic_core::profile::Model;
+use deictic_core::profile::{Model, Profile};
 use deictic_core::protocol::message::Configuration;
 use deictic_core::scene::SceneError;
 use deictic_core::sentence::ANSWER;
@@ -112,12 +112,7 @@ impl<'a> Session<'a> {
         lexicon: &'a Lexicon,
         mut configuration: Configuration,
     ) -> Result<Self, UnitError> {
-        // Of the joint model an answer is a word like any other.
-        if configuration.profile.model != Model::Joint
-            && let Some(weight) = configuration.profile.weights.get_mut(usize::from(ANSWER))
-        {
-            *weight = ANSWER_WEIGHT;
-        }
+        weigh_answers(&mut configuration.profile);
         let unit = GestureUnit::over(opener, lexicon.vocabulary(), table.scene(), configuration)?;
         Ok(Self {
             lexicon,
@@ -244,6 +239,15 @@ impl<'a> Session<'a> {
             self.happened.push(Happening::Dropped(self.queue.len()));
             self.queue.clear();
         }
+    }
+}
+
+/// Of the joint model an answer is a word like any other.
+fn weigh_answers(profile: &mut Profile) {
+    if profile.model != Model::Joint
+        && let Some(weight) = profile.weights.get_mut(usize::from(ANSWER))
+    {
+        *weight = ANSWER_WEIGHT;
     }
 }
 

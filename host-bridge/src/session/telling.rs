@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use deictic_core::gesture::wire::Sample;
 use deictic_core::large::Sentence;
+use deictic_core::profile::Profile;
 use deictic_core::unit::pairing::HAND_PATIENCE;
 
-use super::{PATIENCE, Session};
+use super::{PATIENCE, Session, weigh_answers};
 use crate::clock;
 use crate::hand::meaning::HandSetup;
 use crate::sensor_model::SensorModel;
@@ -64,6 +65,19 @@ impl Session<'_> {
     /// [`UnitError`]; the unit is told when it comes back.
     pub fn set_sensors(&mut self, sensors: SensorModel) -> Result<(), UnitError> {
         self.unit.set_sensors(sensors)
+    }
+
+    /// Has the unit decide by another profile from now on: call it when nothing is going on.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit is told when it comes back.
+    pub fn decide_by(&mut self, mut profile: Profile) -> Result<(), UnitError> {
+        weigh_answers(&mut profile);
+        if self.configuration.profile == profile {
+            return Ok(());
+        }
+        self.configuration.profile = profile;
+        self.unit.configure(self.configuration)
     }
 
     /// Tells the unit what a hand sensor at this machine saw.

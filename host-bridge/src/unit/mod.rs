@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use deictic_core::gesture::wire::decode;
 use deictic_core::large::{Scene, Sentence, ToHost, ToUnit, Vocabulary};
+use deictic_core::profile::Model;
 use deictic_core::protocol::message::{Configuration, Fault, Hello, Loaded, SentencePart};
 use deictic_core::sentence::GESTURE;
 
@@ -254,7 +255,9 @@ impl GestureUnit {
                         if let Some(setup) = &self.hand {
                             let _ = conversation.say_hand(setup);
                         }
-                        if let Some(sensors) = &self.sensors {
+                        if let Some(sensors) = &self.sensors
+                            && self.configuration.profile.model == Model::Joint
+                        {
                             let _ = conversation.say_sensors(sensors);
                         }
                         if self.relays {

@@ -4,7 +4,7 @@ use deictic_core::gesture::wire::{Sample, encode};
 use deictic_core::large::{Scene, Sentence, ToUnit};
 use deictic_core::profile::Model;
 use deictic_core::protocol::hand::SampleBytes;
-use deictic_core::protocol::message::{Answer, RobotStatus};
+use deictic_core::protocol::message::{Answer, Configuration, RobotStatus};
 
 use super::conversation::Conversation;
 use super::event::Loss;
@@ -78,11 +78,25 @@ impl GestureUnit {
     /// # Errors
     /// [`UnitError`]; the unit is told when it comes back.
     pub fn set_sensors(&mut self, sensors: SensorModel) -> Result<(), UnitError> {
-        if self.configuration.profile.model != Model::Joint {
-            return Ok(());
+        self.sensors = Some(sensors);
+        self.say_sensors()
+    }
+
+    fn say_sensors(&mut self) -> Result<(), UnitError> {
+        match (self.configuration.profile.model, self.sensors.clone()) {
+            (Model::Joint, Some(sensors)) => self.with(|c| c.say_sensors(&sensors)),
+            _ => Ok(()),
         }
-        self.sensors = Some(sensors.clone());
-        self.with(|c| c.say_sensors(&sensors))
+    }
+
+    /// Has the unit decide in another way from now on.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit is told when it comes back.
+    pub fn configure(&mut self, configuration: Configuration) -> Result<(), UnitError> {
+        self.configuration = configuration;
+        self.with(|c| c.say(&ToUnit::Configure(configuration)))?;
+        self.say_sensors()
     }
 
     /// Tells the unit what a hand sensor saw.

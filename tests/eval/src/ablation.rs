@@ -40,6 +40,10 @@ pub enum Part {
     Sensors,
     /// The noise that was heard, for the confidence: it is always told the middle of all levels.
     Noise,
+    /// What the confidence knows beside the posterior and the noise: how sure the action is, and how
+    /// many kinds of words there were. It is always told as many kinds, and that the action is as
+    /// sure as the whole.
+    Kinds,
     /// The question about what is clearly meant and cannot be had.
     Guard,
     /// The cut: what has a posterior of 0.9 is executed.
@@ -164,7 +168,7 @@ impl Part {
         };
         match self {
             Self::Guard => profile.guarded = false,
-            Self::Noise | Self::Cut => profile.threshold = Threshold::None,
+            Self::Noise | Self::Kinds | Self::Cut => profile.threshold = Threshold::None,
             _ => {}
         }
         profile
@@ -177,6 +181,11 @@ impl Part {
                 noise: MIDDLE,
                 ..belief
             },
+            Self::Kinds => Belief {
+                action: belief.posterior,
+                kinds: 2,
+                ..belief
+            },
             _ => belief,
         }
     }
@@ -184,7 +193,7 @@ impl Part {
     /// What becomes of an answer.
     fn read(self, mut answer: Answer, belief: Belief, catalogue: &Catalogue) -> Answer {
         let executes = match self {
-            Self::Noise => belief.suffices(RATE, Look::Only),
+            Self::Noise | Self::Kinds => belief.suffices(RATE, Look::Only),
             Self::Cut => belief.posterior >= FIXED,
             _ => true,
         };
@@ -238,7 +247,7 @@ mod tests {
             let without = right(part);
             assert!(without + 40 < whole, "{part:?}: {without} of {whole}");
         }
-        for part in [Part::Noise, Part::Guard, Part::Cut] {
+        for part in [Part::Noise, Part::Kinds, Part::Guard, Part::Cut] {
             assert_eq!(
                 right(part),
                 whole,

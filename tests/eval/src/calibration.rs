@@ -1,6 +1,7 @@
 //! The joint model's confidence and cut, fitted to generated samples.
 //!
-//! [`fit`] scales the posterior's logit by noise class (Platt) and finds the shape of the cut.
+//! [`fit`] scales the logits of the posterior and of its action by noise class and kinds of words
+//! (Platt) and finds the shape of the cut.
 //! [`mod@test`] then shifts that shape by learn-then-test (Angelopoulos et al. 2021): a fixed sequence
 //! of shifts, from cautious to bold, each tested for "in some cell more than 1 % of all commands are
 //! executed wrongly" with the largest exact binomial p-value over all cells, until the first that
@@ -9,7 +10,7 @@
 //! cells at once. That assumes samples that are independent, alike those met in use, and none of
 //! which was used by [`fit`]; it says nothing about another vocabulary, noise or kind of scene.
 
-use deictic_core::joint::belief::{Belief, logit, shares};
+use deictic_core::joint::belief::{Belief, KINDS, logit, shares};
 
 use crate::density::six_digits;
 
@@ -49,10 +50,12 @@ pub struct Cell {
 /// What a flashed table holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table {
-    /// What the logit is multiplied by, per noise class.
-    pub slope: [f64; KNOTS],
+    /// What the posterior's logit is multiplied by, per kinds of words and noise class.
+    pub slope: [[f64; KNOTS]; KINDS],
+    /// What its action's is.
+    pub action: [[f64; KNOTS]; KINDS],
     /// What is added.
-    pub offset: [f64; KNOTS],
+    pub offset: [[f64; KNOTS]; KINDS],
     /// The logit from which on is executed, per risk.
     pub cuts: [[f64; KNOTS]; RISKS.len()],
 }
@@ -70,40 +73,57 @@ impl Table {
     /// Logit of the confidence.
     #[must_use]
     pub fn confidence(&self, belief: &Belief) -> f64 {
-        let hat = hat(belief);
-        dot(&self.slope, &hat) * f64::from(logit(belief.posterior)) + dot(&self.offset, &hat)
+        let (hat, kind) = (hat(belief), belief.kind());
+        dot(&self.slope[kind], &hat) * f64::from(logit(belief.posterior))
+            + dot(&self.action[kind], &hat) * f64::from(logit(belief.action))
+            + dot(&self.offset[kind], &hat)
     }
 
     /// As source of the core.
     #[must_use]
     pub fn source(&self) -> String {
         let row = |row: &[f64; KNOTS]| row.map(six_digits);
-        let mut source = format!(
-            "//! Made by `deictic-eval calibrate`: do not edit.\n\
+        let mut source = "//! Made by `deictic-eval calibrate`: do not edit.\n\
              \n\
              use super::Levels;\n\
-             \n\
-             /// What the posterior's logit is multiplied by, per noise level.\n\
-             #[rustfmt::skip]\n\
-             pub const SLOPE: Levels = {:?};\n\
-             \n\
-             /// What is added to it.\n\
-             #[rustfmt::skip]\n\
-             pub const OFFSET: Levels = {:?};\n\
-             \n\
-             /// The risks that there are cuts for, smallest first: the share of all commands that are executed\n\
+             use super::belief::KINDS;\n"
+            .to_owned();
+        let tables = [
+            (
+                "SLOPE",
+                "What the posterior's logit is multiplied by",
+                &self.slope,
+            ),
+            (
+                "ACTION",
+                "What its action's logit is multiplied by",
+                &self.action,
+            ),
+            ("OFFSET", "What is added to both", &self.offset),
+        ];
+        for (name, what, table) in tables {
+            source.push_str(&format!(
+                "\n/// {what}, by kinds of words and noise level.\n\
+                 #[rustfmt::skip]\n\
+                 pub const {name}: [Levels; KINDS] = [\n"
+            ));
+            for knots in table {
+                source.push_str(&format!("    {:?},\n", row(knots)));
+            }
+            source.push_str("];\n");
+        }
+        source.push_str(&format!(
+            "\n/// The risks that there are cuts for, smallest first: the share of all commands that are executed\n\
              /// wrongly.\n\
              pub const RISKS: [f32; {}] = {:?};\n\
              \n\
              /// For each of them the logit of the confidence from which on an intent is executed.\n\
              #[rustfmt::skip]\n\
              pub const CUTS: [Levels; {}] = [\n",
-            row(&self.slope),
-            row(&self.offset),
             RISKS.len(),
             RISKS,
             RISKS.len(),
-        );
+        ));
         for cut in &self.cuts {
             source.push_str(&format!("    {:?},\n", row(cut)));
         }

@@ -7,14 +7,13 @@
 //! number of questions from 1 to 4 at once, on fresh samples.
 
 use deictic_core::clarify::QUESTIONS;
-use deictic_core::joint::belief::Belief;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
 use super::test::at_most;
-use super::{KNOTS, RISKS, dot, hat};
+use super::{KNOTS, RISKS, Table, dot, hat};
 use crate::conversation::Look;
 use crate::density::six_digits;
 
@@ -61,17 +60,14 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Of all looks at every command, none of which has a cut.
+    /// Of all looks at every command, none of which has a cut, with the confidence that a table gives.
     #[must_use]
-    pub fn new(name: String, level: usize, commands: &[Vec<Look>]) -> Self {
-        let seen = |look: &Look| {
-            let belief: Belief = look.belief;
-            Seen {
-                confidence: f64::from(belief.logit()),
-                hat: hat(&belief),
-                right: look.right,
-                refused: !look.executes,
-            }
+    pub fn new(name: String, level: usize, commands: &[Vec<Look>], table: &Table) -> Self {
+        let seen = |look: &Look| Seen {
+            confidence: table.confidence(&look.belief),
+            hat: hat(&look.belief),
+            right: look.right,
+            refused: !look.executes,
         };
         Self {
             name,

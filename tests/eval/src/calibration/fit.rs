@@ -1,15 +1,15 @@
-//! Platt's scaling by noise class, and the shape of the cut.
+//! Platt's scaling by noise class and kinds of words, and the shape of the cut.
 
-use deictic_core::joint::belief::logit;
+use deictic_core::joint::belief::{Belief, KINDS, logit};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use super::{Cell, KNOTS, Table, dot, hat};
+use super::{Cell, KNOTS, RISKS, Table, dot, hat};
 
-/// Parameters of the scaling.
-const WIDTH: usize = 2 * KNOTS;
+/// Parameters of the scaling per kinds of words: slope, action's slope and offset.
+const WIDTH: usize = 3 * KNOTS;
 
 /// n4 counts more, which evens out that n3 is too shy and n4 too bold.
 const WEIGHTS: [f64; 5] = [1.0, 1.0, 1.0, 1.0, 1.4];
@@ -17,33 +17,56 @@ const WEIGHTS: [f64; 5] = [1.0, 1.0, 1.0, 1.0, 1.4];
 /// How strongly slopes are held at 1, per sample: only where a class has hardly any.
 const RIDGE: f64 = 1e-5;
 
-/// What share of each level should be executed; what lacks of it counts fourfold.
-const AIM: [f64; 5] = [0.0, 0.99, 0.99, 0.67, 0.53];
+/// What share of each level should be executed, and how much what lacks of it counts.
+const AIM: [f64; 5] = [0.0, 0.98, 0.985, 0.67, 0.53];
+const LACKING: [f64; 5] = [3.0, 3.0, 12.0, 3.0, 3.0];
 
 /// How much of the tolerated risk the shape may have on the samples it is fitted to.
 const PART: f64 = 0.92;
 
-/// Slopes and offsets by weighted logistic regression, by Newton's steps.
+/// The scaling's figures of a belief.
+fn row(belief: &Belief) -> [f64; WIDTH] {
+    let hat = hat(belief);
+    let by = [logit(belief.posterior), logit(belief.action), 1.0].map(f64::from);
+    std::array::from_fn(|i| hat[i % KNOTS] * by[i / KNOTS])
+}
+
+/// A table without cuts: slopes and offsets by weighted logistic regression, for each number of kinds
+/// of words on its own.
 #[must_use]
-pub fn scaling(cells: &[Cell]) -> ([f64; KNOTS], [f64; KNOTS]) {
-    let rows: Vec<(f64, [f64; WIDTH], f64)> = cells
-        .iter()
-        .flat_map(|cell| cell.samples.iter().map(|s| (WEIGHTS[cell.level.min(4)], s)))
-        .map(|(weight, sample)| {
-            let (hat, z) = (
-                hat(&sample.belief),
-                f64::from(logit(sample.belief.posterior)),
-            );
-            let row = std::array::from_fn(|i| hat[i % KNOTS] * if i < KNOTS { z } else { 1.0 });
-            (weight, row, f64::from(u8::from(sample.right)))
-        })
-        .collect();
+pub fn scaling(cells: &[Cell]) -> Table {
+    let mut table = Table {
+        slope: [[0.0; KNOTS]; KINDS],
+        action: [[0.0; KNOTS]; KINDS],
+        offset: [[0.0; KNOTS]; KINDS],
+        cuts: [[0.0; KNOTS]; RISKS.len()],
+    };
+    for kind in 0..KINDS {
+        let weighed = cells
+            .iter()
+            .flat_map(|cell| cell.samples.iter().map(|s| (WEIGHTS[cell.level.min(4)], s)));
+        let rows: Vec<_> = weighed
+            .filter(|(_, sample)| sample.belief.kind() == kind)
+            .map(|(weight, s)| (weight, row(&s.belief), f64::from(u8::from(s.right))))
+            .collect();
+        let theta = regression(&rows);
+        let part = |from: usize| std::array::from_fn(|i| theta[from * KNOTS + i]);
+        table.slope[kind] = part(0);
+        table.action[kind] = part(1);
+        table.offset[kind] = part(2);
+    }
+    table
+}
+
+/// Weighted logistic regression by Newton's steps.
+fn regression(rows: &[(f64, [f64; WIDTH], f64)]) -> [f64; WIDTH] {
     let total: f64 = rows.iter().map(|(w, ..)| w).sum();
-    let mut theta: [f64; WIDTH] = std::array::from_fn(|i| if i < KNOTS { 1.0 } else { 0.0 });
+    let held: [f64; WIDTH] = std::array::from_fn(|i| if i < KNOTS { 1.0 } else { 0.0 });
+    let mut theta = held;
     for _ in 0..30 {
         let mut gradient = [0.0; WIDTH];
         let mut hessian = [[0.0; WIDTH]; WIDTH];
-        for (weight, row, right) in &rows {
+        for (weight, row, right) in rows {
             let p = 1.0 / (1.0 + (-dot(&theta, row)).exp());
             for i in 0..WIDTH {
                 gradient[i] += weight * (p - right) * row[i];
@@ -53,8 +76,7 @@ pub fn scaling(cells: &[Cell]) -> ([f64; KNOTS], [f64; KNOTS]) {
             }
         }
         for i in 0..WIDTH {
-            let held = if i < KNOTS { 1.0 } else { 0.0 };
-            gradient[i] += 2.0 * RIDGE * total * (theta[i] - held);
+            gradient[i] += 2.0 * RIDGE * total * (theta[i] - held[i]);
             hessian[i][i] += 2.0 * RIDGE * total;
         }
         let step = solve(hessian, gradient);
@@ -65,8 +87,7 @@ pub fn scaling(cells: &[Cell]) -> ([f64; KNOTS], [f64; KNOTS]) {
             break;
         }
     }
-    let half = |from: usize| std::array::from_fn(|i| theta[from + i]);
-    (half(0), half(KNOTS))
+    theta
 }
 
 /// Solves a positive definite system of which the lower half is given (Cholesky).
@@ -124,9 +145,10 @@ pub fn shape(cells: &[Cell], table: &Table, tolerated: f64) -> [f64; KNOTS] {
         let lacks: f64 = AIM
             .iter()
             .zip(&executed)
-            .map(|(aim, e)| (aim - e).max(0.0))
+            .zip(LACKING)
+            .map(|((aim, e), weight)| weight * (aim - e).max(0.0))
             .sum();
-        executed.iter().sum::<f64>() - 3.0 * lacks - 20.0 * (risk / tolerated - PART).max(0.0)
+        executed.iter().sum::<f64>() - lacks - 20.0 * (risk / tolerated - PART).max(0.0)
     };
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };

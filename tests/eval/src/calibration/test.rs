@@ -62,7 +62,7 @@ pub fn shares(cell: &Cell, table: &Table, cut: &[f64; KNOTS]) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::calibration::{Believed, RISKS};
-    use deictic_core::joint::belief::Belief;
+    use deictic_core::joint::belief::{Belief, KINDS};
 
     #[test]
     fn binomial_sums() {
@@ -74,8 +74,9 @@ mod tests {
     #[test]
     fn a_cut_that_errs_too_often_is_not_passed() {
         let table = Table {
-            slope: [1.0; KNOTS],
-            offset: [0.0; KNOTS],
+            slope: [[1.0; KNOTS]; KINDS],
+            action: [[0.0; KNOTS]; KINDS],
+            offset: [[0.0; KNOTS]; KINDS],
             cuts: [[0.0; KNOTS]; RISKS.len()],
         };
         // One in twenty is wrong at a posterior of 0.8, none at 0.99.
@@ -87,6 +88,7 @@ mod tests {
                     belief: Belief {
                         posterior: if i % 2 == 0 { 0.8 } else { 0.99 },
                         noise: 1.0,
+                        ..Belief::NONE
                     },
                     right: i % 20 != 0,
                     executed: true,

@@ -44,8 +44,7 @@ pub struct Calibrate {
     /// Write the tables of costs instead
     #[arg(long)]
     tables: bool,
-    /// Write the table for commands that may be asked about instead, which goes by the confidence as
-    /// the core has it now
+    /// Write the table for commands that may be asked about instead, with the same confidence
     #[arg(long, conflicts_with = "tables")]
     asking: bool,
 }
@@ -59,19 +58,14 @@ impl Calibrate {
             None => Catalogue::papers(),
             Some(file) => Catalogue::read_toml(file)?,
         };
-        if self.asking {
-            return self.asking(&catalogue, &recipe);
-        }
         let draw = |n, seed| cells(&catalogue, &recipe, n, seed);
         let samples = draw(self.fit, FIT_SEED)?;
         let mut pool = samples.clone();
         pool.extend(free_cells(&catalogue, &recipe, self.fit, FIT_SEED)?);
-        let (slope, offset) = fit::scaling(&pool);
-        let mut table = Table {
-            slope,
-            offset,
-            cuts: [[0.0; KNOTS]; RISKS.len()],
-        };
+        let mut table = fit::scaling(&pool);
+        if self.asking {
+            return self.asking(&catalogue, &recipe, &table);
+        }
         let fresh = draw(self.test, TEST_SEED)?;
         for (i, risk) in RISKS.into_iter().enumerate() {
             let mut cut = fit::shape(&samples, &table, risk);
@@ -92,9 +86,14 @@ impl Calibrate {
         self.write(&table.source())
     }
 
-    fn asking(&self, catalogue: &Catalogue, recipe: &Recipe) -> anyhow::Result<()> {
-        let samples = talks(catalogue, recipe, self.fit, FIT_SEED)?;
-        let fresh = talks(catalogue, recipe, self.test, TEST_SEED)?;
+    fn asking(
+        &self,
+        catalogue: &Catalogue,
+        recipe: &Recipe,
+        scaling: &Table,
+    ) -> anyhow::Result<()> {
+        let samples = talks(catalogue, recipe, self.fit, FIT_SEED, scaling)?;
+        let fresh = talks(catalogue, recipe, self.test, TEST_SEED, scaling)?;
         let mut table = [[[0.0; KNOTS]; 2]; RISKS.len()];
         for (cuts, risk) in table.iter_mut().zip(RISKS) {
             *cuts = asking::shift(&fresh, &asking::fit(&samples, risk), risk)
@@ -132,6 +131,7 @@ fn talks(
     recipe: &Recipe,
     n: usize,
     seed: u64,
+    scaling: &Table,
 ) -> anyhow::Result<Vec<asking::Cell>> {
     let profile = Profile {
         threshold: Threshold::None,
@@ -146,7 +146,8 @@ fn talks(
                 continue;
             };
             let looks = talk.all(&profile, Strategy::Gain, seed)?;
-            cells.push(asking::Cell::new(set.name.clone(), level.number(), &looks));
+            let level = level.number();
+            cells.push(asking::Cell::new(set.name.clone(), level, &looks, scaling));
         }
     }
     Ok(cells)
