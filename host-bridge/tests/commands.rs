@@ -244,7 +244,7 @@ fn the_demo_plays_as_it_is_told() {
             "incomplete: asks which storage, stack cup crackers: done",
             "noisy (n1): push box left: done",
             "noisy (n3): move-up 10 cm: done",
-            "hopeless (n4): asks which action: stands still",
+            "unsure (n4): asks yes or no, push box: done",
             "hopeless: asks to repeat: stands still",
             "infeasible: asks which object: stands still",
             "forbidden: : stands still",
