@@ -86,6 +86,7 @@ fn first_program(lines: &str) -> String {
     format!(
         "#!/bin/sh
 export PATH=/usr/sbin:/usr/bin:/sbin:/bin
+export TMPDIR=/run
 mount -t proc none /proc
 mkdir -p /dev/pts && mount -t devpts none /dev/pts
 mount -t tmpfs none /run
