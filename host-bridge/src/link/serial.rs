@@ -25,8 +25,9 @@ impl Port {
     }
 }
 
-/// How long a port may take to take bytes: at 115,200 baud 2,000 bytes take this long.
-const WRITING: Duration = Duration::from_millis(200);
+/// How long a port may take no byte: at 115,200 baud 2,000 bytes go in 200 ms, and an emulated board on a busy machine has
+/// been seen not to read for that long. A robot that hears nothing for 350 ms stands still by itself.
+const WRITING: Duration = Duration::from_millis(500);
 
 /// A pseudo-terminal: what one side writes, a program that opens the other side reads.
 pub struct Pair {
