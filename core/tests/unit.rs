@@ -9,6 +9,7 @@ use common::*;
 use deictic_core::board::{Sentence, ToHost, ToUnit};
 use deictic_core::category::Category;
 use deictic_core::decide::{Outcome, Reason};
+use deictic_core::profile::Profile;
 use deictic_core::protocol::message::*;
 use deictic_core::sentence::{GESTURE, LANGUAGE};
 use deictic_core::unit::HEARTBEAT;
@@ -200,4 +201,30 @@ fn why_is_told_when_wanted() {
     assert_eq!(actions, Some(9));
     let categories = heard.iter().filter(|m| matches!(m, ToHost::Why(_))).count();
     assert_eq!(categories, 3);
+    assert!(!heard.iter().any(|m| matches!(m, ToHost::WhyWhole(_))));
+}
+
+#[test]
+fn the_joint_model_tells_how_sure_it_is_and_must_be() {
+    let mut bench = Bench::ready();
+    let configuration = Configuration {
+        explain: true,
+        expected: 0b10,
+        profile: Profile::JOINT,
+        ..Configuration::DEFAULT
+    };
+    bench.say(&ToUnit::Configure(configuration));
+    let heard = bench.tell(&said());
+    let whole = heard.iter().find_map(|m| match m {
+        ToHost::WhyWhole(why) => Some(*why),
+        _ => None,
+    });
+    let whole = whole.expect("it tells how sure it is");
+    let executed = heard.iter().any(|m| match m {
+        ToHost::Decision(decided) => matches!(decided.decision.outcome, Outcome::Execute(_)),
+        _ => false,
+    });
+    assert!(whole.posterior > 0.5, "{whole:?}");
+    let cut = whole.cut.expect("a risk has a cut");
+    assert_eq!(whole.confidence >= cut, executed, "{whole:?}");
 }

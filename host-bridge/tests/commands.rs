@@ -255,3 +255,34 @@ fn the_demo_plays_as_it_is_told() {
         ]
     );
 }
+
+#[test]
+fn the_chosen_action_is_among_the_reasons() {
+    let printed = text(&deictic(&["play", "--haste", "200"], b"").stdout);
+    let turns = printed
+        .split("\n\n")
+        .filter(|turn| turn.contains("\ndecided  ") && !turn.contains("stopped at"));
+    let mut seen = 0;
+    for turn in turns {
+        for line in turn.lines().filter(|line| line.starts_with("because")) {
+            let (_, told) = line.split_once(": ").expect(line);
+            assert!(!told.trim().is_empty(), "{turn}");
+        }
+        let decided = turn
+            .lines()
+            .rev()
+            .find_map(|l| l.strip_prefix("decided  "))
+            .unwrap();
+        let actions = turn
+            .lines()
+            .rev()
+            .find_map(|l| l.strip_prefix("because  action: "));
+        let Some(actions) = actions.filter(|_| turn.contains("robot ")) else {
+            continue;
+        };
+        let action = decided.split(' ').next().unwrap();
+        assert!(actions.contains(action), "{turn}");
+        seen += 1;
+    }
+    assert!(seen > 8, "{seen} turns: {printed}");
+}

@@ -87,6 +87,12 @@ fn hand_to_host() -> Vec<(&'static str, ToHost)> {
         samples,
         learned: 64,
     };
+    let whole = WhyWhole {
+        number: 7,
+        posterior: 0.75,
+        confidence: 1.5,
+        cut: Some(3.0),
+    };
     vec![
         ("showing", ToHost::Showing(true)),
         ("shown", ToHost::Shown(shown)),
@@ -98,6 +104,7 @@ fn hand_to_host() -> Vec<(&'static str, ToHost)> {
             "relayed",
             ToHost::Sample(encode(&Sample::Nothing(5)).unwrap().into_iter().collect()),
         ),
+        ("why-whole", ToHost::WhyWhole(whole)),
     ]
 }
 

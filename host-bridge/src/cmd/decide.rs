@@ -74,6 +74,7 @@ impl Decide {
     /// # Errors
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<()> {
+        self.choice.check()?;
         let (lexicon, table) = self.files.read()?;
         let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
         listener.uncertainty = self.choice.uncertainty();
@@ -142,7 +143,9 @@ impl Decide {
             }
         };
         let heard = heard(&observed, lexicon, &profile);
-        let why = self.explain.then(|| Reasons::of_trace(&trace, lexicon));
+        let why = self
+            .explain
+            .then(|| Reasons::of_trace(&trace, &profile, lexicon));
         if self.json {
             print_json(&Line {
                 decision: report::decision(&decision, heard.as_ref(), scene, lexicon),

@@ -3,7 +3,9 @@
 use clap::{Args, ValueEnum};
 use deictic_core::merge::Merge;
 use deictic_core::profile::{Align, Model, Profile, Threshold};
+use miette::Result;
 
+use super::advice;
 use crate::language::Uncertainty;
 
 /// Which variant of the method decides, on top of a named one.
@@ -25,12 +27,14 @@ pub struct Choice {
     /// Which words of different modalities speak of the same thing
     #[arg(long, value_enum, default_value_t = AlignName::Category)]
     align: AlignName,
-    /// The share of commands that may be executed wrongly; for the risk threshold
-    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
-    risk: f32,
+    /// The share of commands that may be executed wrongly, from 0.003 to below 1: 0.01 is 1 %; of the
+    /// joint model [default: 0.01]
+    #[arg(long, value_name = "SHARE")]
+    risk: Option<f32>,
     /// How many questions may be asked about a command before it is given up; of the joint model
-    #[arg(long, value_name = "N", default_value_t = Profile::JOINT.questions, value_parser = clap::value_parser!(u8).range(0..=4))]
-    questions: u8,
+    /// [default: 2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=4))]
+    questions: Option<u8>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -78,6 +82,27 @@ enum AlignName {
 }
 
 impl Choice {
+    /// Refuses what the chosen model would not go by.
+    ///
+    /// # Errors
+    /// A report with what to do.
+    pub fn check(self) -> Result<()> {
+        if matches!(self.model, ModelName::Joint) {
+            return Ok(());
+        }
+        let given = [
+            ("--risk", self.risk.is_some()),
+            ("--questions", self.questions.is_some()),
+        ];
+        match given.iter().find(|(_, given)| *given) {
+            None => Ok(()),
+            Some((option, _)) => Err(advice(
+                format!("{option} is for the joint model, and the paper's models do not go by it"),
+                format!("add --model joint, or leave {option} out"),
+            )),
+        }
+    }
+
     /// The same with the joint model and its usual threshold.
     #[must_use]
     pub fn joint(self) -> Self {
@@ -120,7 +145,9 @@ impl Choice {
             ThresholdName::Entropy => Threshold::Entropy,
             ThresholdName::WhiteNoise => Threshold::WhiteNoise,
             ThresholdName::Fixed => Threshold::FIXED,
-            ThresholdName::Risk => Threshold::Risk { rate: self.risk },
+            ThresholdName::Risk => self
+                .risk
+                .map_or(Threshold::RISK, |rate| Threshold::Risk { rate }),
         };
         let align = match self.align {
             AlignName::Category => Align::Category,
@@ -130,7 +157,7 @@ impl Choice {
             (Named::Paper, Model::Baseline, _) => Profile::BASELINE,
             (_, Model::Joint, _) => Profile {
                 threshold,
-                questions: self.questions,
+                questions: self.questions.unwrap_or(Profile::JOINT.questions),
                 ..Profile::JOINT
             },
             (Named::Paper, ..) => Profile {

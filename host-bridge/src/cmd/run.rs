@@ -115,6 +115,7 @@ impl Run {
     /// # Errors
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<u8> {
+        self.choice.check()?;
         let (lexicon, table) = self.files.read()?;
         let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
         listener.uncertainty = self.choice.uncertainty();

@@ -1,6 +1,7 @@
 //! The core's errors in words. The core knows numbers only, so what it names by number is named by
 //! number here as well, counted from 1 as people count.
 
+use deictic_core::joint::calibration::RISKS;
 use deictic_core::profile::ProfileError;
 use deictic_core::scene::SceneError;
 use deictic_core::sentence::SentenceError;
@@ -167,8 +168,11 @@ pub fn profile_error(error: &ProfileError) -> Advice {
             "the risk threshold is for the joint model, which takes no other but none",
         ),
         ProfileError::Risk => Advice::new(
-            "no cut is known for so small a risk",
-            "tolerate at least 0.003, and less than 1; `deictic-eval calibrate` makes the cuts",
+            format!(
+                "a risk is a share of all commands, from {} to below 1",
+                RISKS[0]
+            ),
+            "0.01 is 1 %, one command in a hundred; `deictic-eval calibrate` makes the cuts",
         ),
         ProfileError::Questions => Advice::new(
             "more questions than can be asked",

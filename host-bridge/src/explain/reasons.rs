@@ -1,8 +1,13 @@
 //! The figures behind a decision, whether it was made here or on the unit.
 
+mod told;
+
 use deictic_core::category::Category;
+use deictic_core::joint::belief::Look;
 use deictic_core::large;
-use deictic_core::protocol::message::{Why, WhyActions};
+use deictic_core::math;
+use deictic_core::profile::{Model, Profile, Threshold};
+use deictic_core::protocol::message::{Why, WhyActions, WhyWhole};
 use serde::Serialize;
 
 use crate::vocabulary::Lexicon;
@@ -14,6 +19,32 @@ pub struct Reasons {
     pub words: Vec<Word>,
     /// What penalties made of the actions; as many as the vocabulary has.
     pub actions: Vec<Penalty>,
+    /// How far the likeliest whole intent is believed; of the joint model alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole: Option<Whole>,
+}
+
+/// How far the joint model believes its likeliest intent.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Whole {
+    /// Its share of the posterior over all intents, 0..=1.
+    pub posterior: f32,
+    /// The calibrated probability that it is what was meant, 0..=1.
+    pub confidence: f32,
+    /// From which confidence on it is executed, 0..=1; `None` when it is executed however sure.
+    pub cut: Option<f32>,
+}
+
+impl Whole {
+    /// From logits, as the core has them.
+    fn new(posterior: f32, confidence: f32, cut: Option<f32>) -> Self {
+        let share = |logit: f32| 1.0 / (1.0 + math::exp(-logit));
+        Self {
+            posterior,
+            confidence: share(confidence),
+            cut: cut.map(share),
+        }
+    }
 }
 
 /// One category's merged word.
@@ -39,7 +70,8 @@ pub struct Word {
 pub struct Choice {
     /// Its name.
     pub name: String,
-    /// Its merged likelihood; of an action after alpha and beta.
+    /// Its merged likelihood; of an action after alpha and beta. Of the joint model its share of the
+    /// posterior.
     pub merged: f32,
     /// Its diagonal cross-entropy.
     pub h: f32,
@@ -52,7 +84,7 @@ pub struct Choice {
 pub struct Penalty {
     /// Its name.
     pub name: String,
-    /// Its merged likelihood before any penalty.
+    /// Its merged likelihood before any penalty; 0 of the joint model, which merges nothing.
     pub heard: f32,
     /// alpha: what the signature left of it (eq. 7).
     pub alpha: f32,
@@ -61,10 +93,19 @@ pub struct Penalty {
 }
 
 impl Reasons {
-    /// The reasons of a decision made here.
+    /// The reasons of a decision made here by `profile`, before any question.
     #[must_use]
-    pub fn of_trace(trace: &large::Trace, lexicon: &Lexicon) -> Self {
+    pub fn of_trace(trace: &large::Trace, profile: &Profile, lexicon: &Lexicon) -> Self {
         let mut reasons = Self::default();
+        if profile.model == Model::Joint {
+            let belief = &trace.belief;
+            let look = Look::of(profile.questions, profile.questions);
+            let cut = match profile.threshold {
+                Threshold::Risk { rate } => Some(belief.cut(rate, look)),
+                _ => None,
+            };
+            reasons.whole = Some(Whole::new(belief.posterior, belief.logit(), cut));
+        }
         let actions = lexicon.vocabulary().actions().len();
         let figures = trace.heard.iter().zip(&trace.alpha).zip(&trace.beta);
         reasons.penalties(
@@ -105,31 +146,9 @@ impl Reasons {
         self.penalties(figures.map(|((h, a), b)| (*h, *a, *b)), lexicon);
     }
 
-    /// The reasons in a line per category: the options that count, those that are clear with a star,
-    /// actions with what was heard of them and what alpha and beta left of it.
-    #[must_use]
-    pub fn brief(&self) -> Vec<String> {
-        let lines = self.words.iter().map(|word| {
-            let mut options: Vec<_> = word.options.iter().enumerate().collect();
-            let penalty = |i: usize| self.actions.get(i).filter(|_| word.of == Category::ACTION);
-            let weight = |i: usize, o: &Choice| penalty(i).map_or(o.merged, |p| p.heard);
-            options.sort_by(|a, b| weight(b.0, b.1).total_cmp(&weight(a.0, a.1)));
-            let counting = options
-                .into_iter()
-                .filter(|(i, o)| weight(*i, o) >= 0.05 || o.merged >= 0.05);
-            let told = counting.take(4).map(|(i, o)| {
-                let star = if o.clear { "*" } else { "" };
-                match penalty(i) {
-                    Some(p) => format!(
-                        "{} {:.2} x alpha {:.2} x beta {:.2} = {:.2}{star}",
-                        o.name, p.heard, p.alpha, p.beta, o.merged
-                    ),
-                    None => format!("{} {:.2}{star}", o.name, o.merged),
-                }
-            });
-            format!("{}: {}", word.category, told.collect::<Vec<_>>().join(", "))
-        });
-        lines.collect()
+    /// Takes the unit's account of the whole intent.
+    pub fn add_whole(&mut self, why: &WhyWhole) {
+        self.whole = Some(Whole::new(why.posterior, why.confidence, why.cut));
     }
 
     fn penalties(&mut self, figures: impl Iterator<Item = (f32, f32, f32)>, lexicon: &Lexicon) {
@@ -163,40 +182,4 @@ fn choices(
             clear: clear >> i & 1 == 1,
         })
         .collect()
-}
-
-/// The reasons as a table, a line per option, those without weight left out.
-impl std::fmt::Display for Reasons {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        for word in &self.words {
-            writeln!(
-                f,
-                "{} (present {:.2}, entropy {:.3}, threshold {:.3})",
-                word.category, word.present, word.entropy, word.threshold
-            )?;
-            let mut lines: Vec<_> = word.options.iter().enumerate().collect();
-            lines.sort_by(|a, b| b.1.merged.total_cmp(&a.1.merged));
-            for (i, option) in lines {
-                let penalty = self.actions.get(i).filter(|_| word.of == Category::ACTION);
-                if option.merged < 5e-4 && penalty.is_none_or(|p| p.heard < 5e-4) {
-                    continue;
-                }
-                let mark = if option.clear { "clear" } else { "" };
-                write!(
-                    f,
-                    "  {:<12} {:>6.3}  h {:>6.3}  {mark:<5}",
-                    option.name, option.merged, option.h
-                )?;
-                if let Some(p) = penalty {
-                    write!(
-                        f,
-                        "  heard {:>6.3}  alpha {:.3}  beta {:.3}",
-                        p.heard, p.alpha, p.beta
-                    )?;
-                }
-                writeln!(f)?;
-            }
-        }
-        Ok(())
-    }
 }

@@ -35,6 +35,11 @@ impl Session<'_> {
                     reasons.add(&why, self.lexicon);
                 }
             }
+            unit::Event::WhyWhole(why) => {
+                if let Some((reasons, _)) = &mut self.reasons {
+                    reasons.add_whole(&why);
+                }
+            }
             // Asked for after every decision that is explained, so that all reasons are before it.
             unit::Event::Statistics(_) => self.tell_reasons(),
             unit::Event::Fault(fault @ Fault::Hand(HandFault::SensorLost)) => {

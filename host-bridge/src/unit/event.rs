@@ -3,7 +3,9 @@
 use deictic_core::gesture::wire::Sample;
 use deictic_core::large::Sentence;
 use deictic_core::protocol::hand::{HandStatistics, HandView};
-use deictic_core::protocol::message::{Decided, Fault, Hello, Statistics, Why, WhyActions};
+use deictic_core::protocol::message::{
+    Decided, Fault, Hello, Statistics, Why, WhyActions, WhyWhole,
+};
 
 use super::trust::Distrust;
 
@@ -21,6 +23,8 @@ pub enum Event {
     Why(Box<Why<64>>),
     /// Why: the actions' penalties.
     WhyActions(Box<WhyActions<64>>),
+    /// Why: the whole intent, of the joint model.
+    WhyWhole(WhyWhole),
     /// Something was not right; nothing was done.
     Fault(Fault),
     /// What it has counted.

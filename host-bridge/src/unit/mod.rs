@@ -189,6 +189,7 @@ impl GestureUnit {
             }
             ToHost::Why(why) => Some(Event::Why(Box::new(why))),
             ToHost::WhyActions(why) => Some(Event::WhyActions(Box::new(why))),
+            ToHost::WhyWhole(why) => Some(Event::WhyWhole(why)),
             ToHost::Fault(fault) => Some(Event::Fault(fault)),
             ToHost::Loaded(Loaded::Scene(version)) if version == self.scene.version() => {
                 self.scene_due = None;

@@ -20,7 +20,7 @@ pub use parts::{
     ACTIONS_PART, ENTITIES_PART, ScenePart, SensorPart, SensorRow, SentencePart, VocabularyPart,
     WORDS_PART,
 };
-pub use told::{Decided, Statistics, Why, WhyActions};
+pub use told::{Decided, Statistics, Why, WhyActions, WhyWhole};
 
 /// What a host says to a unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,6 +109,8 @@ pub enum ToHost<const N: usize, const C: usize> {
     Proven,
     /// Asked for: what the unit's own hand sensor sent.
     Sample(SampleBytes),
+    /// When configured: why, the whole intent; of the joint model.
+    WhyWhole(WhyWhole),
 }
 
 impl<const N: usize, const C: usize> Opening for ToHost<N, C> {

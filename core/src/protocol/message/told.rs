@@ -59,6 +59,20 @@ pub struct WhyActions<const N: usize> {
     pub beta: Vec<f32, N>,
 }
 
+/// Why a decision of the joint model came out as it did: how far the likeliest whole intent is
+/// believed ([`crate::joint::belief::Belief`]).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WhyWhole {
+    /// The decision's number.
+    pub number: u32,
+    /// The posterior of the likeliest intent, 0..=1; 0 when there is none.
+    pub posterior: f32,
+    /// The logit of the confidence in it.
+    pub confidence: f32,
+    /// The logit from which on it is executed; `None` when it is executed however sure.
+    pub cut: Option<f32>,
+}
+
 /// What a unit has counted since it started.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {

@@ -7,8 +7,10 @@ use crate::category::Category;
 use crate::decide::{Decision, Outcome};
 use crate::fuse::{Situation, fuse};
 use crate::intent::Intent;
+use crate::joint::belief::Look;
 use crate::joint::posterior::Triple;
-use crate::protocol::message::{Decided, Fault, ToHost, Why, WhyActions};
+use crate::profile::{Model, Threshold};
+use crate::protocol::message::{Decided, Fault, ToHost, Why, WhyActions, WhyWhole};
 use crate::time::Micros;
 use crate::unit::Unit;
 
@@ -74,6 +76,7 @@ impl<
                 };
                 let number = self.announce(self.pairing.observations.modalities(), decision);
                 if self.configuration.explain {
+                    self.explain_whole(number);
                     self.explain(number);
                 }
                 match asks {
@@ -106,6 +109,28 @@ impl<
             decision,
         }));
         number
+    }
+
+    #[inline(never)]
+    fn explain_whole(&mut self, number: u32) {
+        let profile = &self.configuration.profile;
+        if profile.model != Model::Joint {
+            return;
+        }
+        let answers = self.pairing.observations.answers();
+        let look = Look::of(profile.questions, profile.questions.saturating_sub(answers));
+        let belief = &self.trace.belief;
+        let why = WhyWhole {
+            number,
+            posterior: belief.posterior,
+            confidence: belief.logit(),
+            cut: match profile.threshold {
+                Threshold::Risk { rate } => Some(belief.cut(rate, look)),
+                _ => None,
+            },
+        };
+        self.link
+            .send(&ToHost::<N, C>::WhyWhole(why), &mut self.outbox);
     }
 
     #[inline(never)]

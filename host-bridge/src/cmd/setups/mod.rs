@@ -73,6 +73,7 @@ impl Setups {
     /// # Errors
     /// A report with what was wrong and what to do.
     pub fn run(self) -> Result<()> {
+        self.choice.check()?;
         let lexicon = Lexicon::tabletop()?;
         let setups = setups::read(&self.file, &lexicon)?;
         let profile = self.choice.profile();
