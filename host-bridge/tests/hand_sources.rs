@@ -305,7 +305,10 @@ fn a_recording_gives_back_what_was_recorded() {
         "{error}"
     );
     std::fs::write(&path, b"").unwrap();
-    assert!(matches!(recording::read(&path), Err(SourceError::Empty(_))));
+    assert!(matches!(
+        recording::read(&path),
+        Err(SourceError::NoRecording(_))
+    ));
 }
 
 #[test]

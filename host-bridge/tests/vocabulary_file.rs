@@ -144,9 +144,18 @@ fn what_is_wrong_is_found_at_its_place() {
     let (p, _) = refused(&with(""));
     assert!(matches!(p, P::Refused(_)));
     let (p, place) = refused(&act("[similarity.gesture]\naction = [[1.0, 0.0]]"));
-    assert!(matches!(p, P::BadTable { size: 1, .. }) && place == "[[1.0, 0.0]]");
+    assert!(matches!(
+        p,
+        P::TableSize {
+            rows: 1,
+            columns: 2,
+            size: 1,
+            ..
+        }
+    ));
+    assert_eq!(place, "[[1.0, 0.0]]");
     let (p, _) = refused(&act("[similarity.gesture]\naction = 1.5"));
-    assert!(matches!(p, P::BadTable { .. }));
+    assert!(matches!(p, P::NoLikelihood { value: 1.5, .. }));
     let (p, _) = refused(&act("[similarity.language]\nobject = 0.5"));
     assert!(matches!(p, P::UnknownCategory { .. }));
 }
@@ -171,4 +180,90 @@ fn more_than_the_capacities_is_refused() {
 fn a_missing_file_is_said_to_be_missing() {
     let error = Lexicon::read("no/such.toml".as_ref()).unwrap_err();
     assert!(matches!(error.problem(), P::Unreadable(_)));
+}
+
+#[test]
+fn an_action_more_than_its_similarity_table_has_is_told_what_to_do() {
+    let wipe = "[[action]]\nname = \"wipe\"\n\n[[object]]";
+    let (p, place) = refused(&TABLETOP.replacen("[[object]]", wipe, 1));
+    assert!(matches!(
+        p,
+        P::TableSize {
+            rows: 9,
+            columns: 9,
+            size: 10,
+            ..
+        }
+    ));
+    assert!(place.starts_with("[\n    [1.00"), "{place}");
+    let advice = deictic::diagnose::Problem::remedy(&p);
+    assert!(
+        advice.contains("may be left out") && advice.contains("a row and a column"),
+        "{advice}"
+    );
+    // And so they may.
+    let (without, _) = TABLETOP.split_once("# What recognisers make").unwrap();
+    let lexicon = Lexicon::parse("x", &without.replacen("[[object]]", wipe, 1)).unwrap();
+    assert_eq!(lexicon.entries(Category::ACTION).len(), 10);
+}
+
+#[test]
+fn a_word_or_gesture_stands_for_one_option_of_a_category() {
+    let two = |first: &str, second: &str| {
+        format!(
+            "name = \"x\"\n[[action]]\nname = \"a\"\n{first}\n[[action]]\nname = \"b\"\n{second}\n"
+        )
+    };
+    for (first, second, at) in [
+        ("words = [\"go\"]", "words = [\"run\", \"Go\"]", "\"Go\""),
+        ("words = [\"B\"]", "", "\"b\""),
+        ("words = [\"go on\"]", "words = [\"go-on\"]", "\"go-on\""),
+        (
+            "gestures = [\"wave\"]",
+            "gestures = [\"nod\", \"wave\"]",
+            "\"wave\"",
+        ),
+    ] {
+        let (p, place) = refused(&two(first, second));
+        let P::Shared { first, second, .. } = p else {
+            panic!("{p}")
+        };
+        assert_eq!((&first[..], &second[..], &place[..]), ("a", "b", at));
+    }
+    for words in [
+        "words = [\"\"]",
+        "words = [\"go\", \" ?\"]",
+        "gestures = [\" \"]",
+    ] {
+        let (p, _) = refused(&two(words, ""));
+        assert!(matches!(p, P::EmptyWord(_)), "{words}: {p}");
+    }
+    // One of another category is another thing, as a box that one can put things into.
+    let both = "name = \"x\"\n[[action]]\nname = \"a\"\n[[object]]\nname = \"box\"\n[[storage]]\nname = \"box\"\n";
+    assert!(Lexicon::parse("x", both).is_ok());
+}
+
+#[test]
+fn a_gesture_that_is_misspelt_is_refused_and_one_of_the_users_own_is_not() {
+    let with = |gesture: &str| {
+        format!("name = \"x\"\n[[action]]\nname = \"a\"\ngestures = [\"{gesture}\"]\n")
+    };
+    for (wrong, right) in [
+        ("swip-up", "swipe-up"),
+        ("swipe-rihgt", "swipe-right"),
+        ("pinhc", "pinch"),
+    ] {
+        let (p, place) = refused(&with(wrong));
+        let P::UnknownGesture { nearest, .. } = p else {
+            panic!("{p}")
+        };
+        assert_eq!((nearest, place), (right, format!("\"{wrong}\"")));
+    }
+    for own in ["zigzag", "open-hand", "wave2", "point-left", "nod"] {
+        assert!(Lexicon::parse("x", &with(own)).is_ok(), "{own}");
+    }
+    for reserved in ["grab", "point"] {
+        let (p, _) = refused(&with(reserved));
+        assert!(matches!(p, P::Reserved(_)), "{p}");
+    }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use deictic_core::category::Category;
 use deictic_core::gesture::wire::Sample;
 use deictic_core::protocol::message::Configuration;
@@ -11,7 +11,7 @@ use miette::{IntoDiagnostic, Result, WrapErr};
 
 use super::files::Files;
 use super::sensing::drain;
-use super::{advice, paint};
+use super::{advice, counted, paint};
 use crate::diagnose::quoted;
 use crate::explain;
 use crate::hand::aim::{Aimed, Pointings, aim, write};
@@ -37,16 +37,16 @@ use crate::vocabulary::Lexicon;
 /// the hand, or takes it away, in between. What is found goes in place of the scene's `[sensor]`. Three
 /// things are enough, six are better, far apart from each other.
 #[derive(Args, Clone, Debug)]
-#[command(verbatim_doc_comment)]
+#[command(verbatim_doc_comment, group(ArgGroup::new("eyes").required(true).args(["hand", "board"])))]
 pub(super) struct Aim {
     /// What to point at, in this order
     #[arg(value_name = "THING", required = true)]
     things: Vec<String>,
     /// The hand sensor at this machine: leap, mediapipe:FILE, file:RECORDING, or a made-up person
-    #[arg(long, value_name = "SENSOR", required_unless_present = "board")]
+    #[arg(long, value_name = "SENSOR")]
     hand: Option<Address>,
     /// The unit whose own sensor sees the hand: serial:PORT@BAUD, tcp:HOST:PORT, can:INTERFACE, qemu:SENSOR-PORT
-    #[arg(long, value_name = "ADDRESS", conflicts_with = "hand")]
+    #[arg(long, value_name = "ADDRESS")]
     board: Option<link::Address>,
     #[command(flatten)]
     files: Files,
@@ -93,8 +93,8 @@ impl Aim {
             .into_diagnostic()
             .wrap_err_with(|| format!("cannot write {out}"))?;
         anstream::println!(
-            "{} things pointed at: turned by {:.1} degrees, misses by {:.1} degrees: {out}",
-            pointed.len(),
+            "{} pointed at: turned by {:.1} degrees, misses by {:.1} degrees: {out}",
+            counted(pointed.len(), "thing"),
             turned.to_degrees(),
             settings.aim.sigma.to_degrees()
         );

@@ -5,8 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use miette::Result;
 
+use super::advice;
+use crate::diagnose::FileError;
+use crate::language::pack::Pack;
 use crate::scene::{SceneFile, Tabletop};
-use crate::vocabulary::Lexicon;
+use crate::vocabulary::{Lexicon, VocabularyProblem};
 
 /// Which vocabulary and which scene.
 #[derive(Args, Clone, Debug, Default)]
@@ -26,19 +29,44 @@ impl Files {
             Some(path) => Some(SceneFile::read(path)?),
             None => None,
         };
-        let named = self
-            .vocabulary
-            .clone()
-            .or_else(|| scene.as_ref().and_then(SceneFile::vocabulary));
-        let lexicon = match named {
-            Some(path) => Lexicon::read(&path)?,
-            None => Lexicon::tabletop()?,
+        let lexicon = self.lexicon(scene.as_ref())?;
+        let table = match (scene, &self.vocabulary) {
+            (Some(scene), _) => scene.tabletop(&lexicon)?,
+            (None, None) => SceneFile::table()?.tabletop(&lexicon)?,
+            (None, Some(path)) => SceneFile::table()?.tabletop(&lexicon).map_err(|error| {
+                let path = path.display();
+                advice(
+                    format!(
+                        "the table that comes with the program is not one of {path}: {}",
+                        error.problem()
+                    ),
+                    "give the table that goes with the vocabulary: --scene FILE",
+                )
+            })?,
         };
-        let scene = match scene {
-            Some(scene) => scene,
-            None => SceneFile::table()?,
-        };
-        let table = scene.tabletop(&lexicon)?;
         Ok((lexicon, table))
+    }
+
+    /// The vocabulary that is given, that the scene names, or the tabletop's.
+    fn lexicon(&self, scene: Option<&SceneFile>) -> Result<Lexicon> {
+        let named = scene.and_then(SceneFile::vocabulary);
+        let Some(path) = self.vocabulary.as_ref().or(named.as_ref()) else {
+            return Ok(Lexicon::tabletop()?);
+        };
+        let lexicon = match (Lexicon::read(path), scene, &self.vocabulary) {
+            (Err(error), Some(scene), None) => match error.problem() {
+                VocabularyProblem::Unreadable(cause) => {
+                    return Err(scene.without_vocabulary(cause.to_string()).into());
+                }
+                _ => return Err(error.into()),
+            },
+            (read, ..) => read?,
+        };
+        if let Err(error) = Pack::of(lexicon.language()) {
+            let text = std::fs::read_to_string(path).unwrap_or_default();
+            let (name, place) = (path.display().to_string(), lexicon.language_place());
+            return Err(FileError::new(&name, &text, place, error).into());
+        }
+        Ok(lexicon)
     }
 }

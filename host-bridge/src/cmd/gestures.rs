@@ -6,12 +6,11 @@ use clap::{Args, Subcommand};
 use deictic_core::gesture::wire::Sample;
 use miette::{IntoDiagnostic, Result, WrapErr};
 
-use super::advice;
 use super::aiming::Aim;
+use super::{advice, counted};
 use crate::hand::learning::{Performance, learn, strokes};
-use crate::hand::meaning::known;
 use crate::hand::source::recording;
-use crate::hand::taught::Taught;
+use crate::hand::taught::{Taught, known};
 
 /// Gestures of one's own, and how one aims
 #[derive(Args, Clone, Debug)]
@@ -81,7 +80,8 @@ impl Learn {
             };
             let samples = recording::read(Path::new(path))?;
             let found = of_recording(subject, name, &samples);
-            anstream::println!("{name:<16} {} movements in {path}", found.len());
+            let count = counted(found.len(), "movement");
+            anstream::println!("{name:<16} {count} in {path}");
             if found.is_empty() {
                 return Err(advice(
                     format!("{path} holds no movement"),
@@ -116,7 +116,8 @@ impl Learn {
             .into_diagnostic()
             .wrap_err_with(|| format!("cannot write {out}"))?;
         let (gestures, examples) = (taught.gestures.len(), taught.templates.len());
-        anstream::println!("{gestures} gestures with {examples} examples: {out}");
+        let (gestures, examples) = (counted(gestures, "gesture"), counted(examples, "example"));
+        anstream::println!("{gestures} with {examples}: {out}");
         Ok(())
     }
 }

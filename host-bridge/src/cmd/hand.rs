@@ -114,6 +114,15 @@ impl Hand {
             unit.relay()?;
         }
         let mut screen = Screen::new(self.json, &setup, &table, &lexicon);
+        let unknown = setup.unknown(&lexicon);
+        // The tabletop's own vocabulary has some that are typed only.
+        if self.files.vocabulary.is_some() && !unknown.is_empty() {
+            let names = unknown.join(", ");
+            screen.say(
+                "unknown",
+                &format!("nobody can show {names}: teach them (--gestures), or type them"),
+            );
+        }
         let (mut looked, mut over) = (Instant::now(), Instant::now());
         while !is_over(&interrupts) {
             if let Some(open) = &source {

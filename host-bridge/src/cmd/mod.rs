@@ -26,6 +26,12 @@ pub mod understand;
 
 use miette::Report;
 
+/// So many of something: "1 movement", "2 movements".
+fn counted(count: usize, what: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{ending}")
+}
+
 /// An error in words with what to do about it.
 fn advice(what: impl std::fmt::Display, remedy: impl std::fmt::Display) -> Report {
     miette::miette!(help = remedy.to_string(), "{what}")

@@ -40,7 +40,7 @@ impl Sensing {
             Some(path) => aim::read(path).map_err(|e| advice(&e, e.remedy()))?,
             None => table.hand(),
         };
-        HandSetup::new(lexicon, settings, taught).map_err(|e| advice(&e, e.remedy()))
+        Ok(HandSetup::new(lexicon, settings, taught))
     }
 
     /// Opens the sensor, if there is one.

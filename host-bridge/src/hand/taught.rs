@@ -4,11 +4,10 @@ use std::path::Path;
 
 use deictic_core::gesture::mapping::STROKES;
 use deictic_core::gesture::stroke::{Scale, Template, Templates};
+use deictic_core::gesture::stroke_table::NAMES;
 use deictic_core::protocol::hand::{LEARNED, TEMPLATES_PART, TemplatesPart};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-
-use super::meaning::known;
 
 /// Gestures that a unit is taught.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,6 +56,14 @@ pub enum TaughtError {
         #[source]
         cause: toml::de::Error,
     },
+    /// A gesture without a name, or with another's.
+    #[error("{path}: gesture {number} has no name of its own")]
+    Nameless {
+        /// The file.
+        path: String,
+        /// Which one of `gestures`, counted from 1.
+        number: usize,
+    },
     /// More than a unit holds.
     #[error(
         "{path}: {gestures} gestures with {templates} examples; a unit tells {STROKES} apart and holds {LEARNED} examples"
@@ -80,6 +87,9 @@ impl TaughtError {
                 "give a file that `deictic gestures learn --out` has written"
             }
             Self::Syntax { .. } => "write it anew with `deictic gestures learn`",
+            Self::Nameless { .. } => {
+                "name each in `gestures`, as the vocabulary names it; those that a unit knows keep theirs"
+            }
             Self::TooMany { .. } => {
                 "learn fewer gestures, fewer examples of each (--each), or --only those"
             }
@@ -106,11 +116,20 @@ impl Taught {
         Ok(taught)
     }
 
-    /// Holds that a unit has room for it.
+    /// Holds that a unit has room for it, and that every gesture has a name of its own.
     ///
     /// # Errors
-    /// [`TaughtError::TooMany`], naming `path`.
+    /// [`TaughtError::TooMany`], [`TaughtError::Nameless`], naming `path`.
     pub fn check(&self, path: &str) -> Result<(), TaughtError> {
+        let others: &[&str] = if self.known { &NAMES } else { &[] };
+        for (i, name) in self.gestures.iter().enumerate() {
+            let before = self.gestures.iter().take(i);
+            let taken = before.map(String::as_str).chain(others.iter().copied());
+            if name.trim().is_empty() || taken.into_iter().any(|other| other == name) {
+                let (path, number) = (path.to_owned(), i + 1);
+                return Err(TaughtError::Nameless { path, number });
+            }
+        }
         let gestures = self.gestures.len() + if self.known { known() } else { 0 };
         let templates = self.templates.len();
         if gestures > STROKES || templates > LEARNED {
@@ -147,9 +166,25 @@ impl Taught {
     }
 }
 
+/// How many gestures a unit knows without being taught.
+#[must_use]
+pub fn known() -> usize {
+    Templates::KNOWN
+        .known
+        .iter()
+        .map(|t| usize::from(t.gesture) + 1)
+        .max()
+        .unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_gesture_that_a_unit_knows_has_a_name() {
+        assert_eq!(known(), NAMES.len());
+    }
 
     #[test]
     fn a_file_keeps_what_was_learned() {

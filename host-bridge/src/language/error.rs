@@ -2,6 +2,8 @@
 
 use deictic_core::sentence::SentenceError;
 
+use crate::diagnose::Problem;
+
 /// The longest text that is taken for one utterance, in bytes: some eight minutes of speech.
 pub const LONGEST: usize = 8 * 1024;
 
@@ -126,6 +128,12 @@ impl LanguageError {
             Self::BadPack { .. } => "mend the file at that line".into(),
             Self::Sentence(_) => "say it in two sentences".into(),
         }
+    }
+}
+
+impl Problem for LanguageError {
+    fn remedy(&self) -> String {
+        self.remedy()
     }
 }
 

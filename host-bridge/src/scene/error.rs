@@ -1,5 +1,7 @@
 //! What can be wrong with a scene file.
 
+use std::path::PathBuf;
+
 use deictic_core::protocol::hand::HandFault;
 use deictic_core::protocol::message::Fault;
 use deictic_core::scene::SceneError;
@@ -14,6 +16,14 @@ pub enum SceneProblem {
     /// The file cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(std::io::Error),
+    /// The vocabulary file that it names cannot be read.
+    #[error("the vocabulary {} cannot be read: {why}", path.display())]
+    NoVocabulary {
+        /// Where it would be.
+        path: PathBuf,
+        /// What the system said.
+        why: String,
+    },
     /// It is not TOML, or not of this shape.
     #[error("{0}")]
     Syntax(String),
@@ -80,6 +90,9 @@ impl Problem for SceneProblem {
                  program"
                     .into()
             }
+            Self::NoVocabulary { .. } => {
+                "write where it is, as seen from this file; without the line the tabletop's own vocabulary is taken".into()
+            }
             Self::Syntax(message) => format!("{}{}", misspelt(message), "the file is TOML with [[object]] and [[storage]] tables that have a `name`, a \
                  `position` and `features`; see data/scenes/table.toml"),
             Self::UnknownThing { name, known, .. } => format!(
@@ -101,7 +114,7 @@ impl Problem for SceneProblem {
                 "write for example {\"change\": {\"object\": \"can\", \"position\": [0.4, 0.1, 0.06]}}"
                     .into()
             }
-            Self::Twice(_) => "name it once".into(),
+            Self::Twice(_) => "keep one of them; two alike need names of their own in the vocabulary".into(),
             Self::NoPosition(_) => "give its place as [x, y, z] in metres".into(),
             Self::NotThere(_) => "ask with \"show\" for what is on the table".into(),
             Self::BadLikelihood(_) => "write a number from 0 to 1, or true or false".into(),

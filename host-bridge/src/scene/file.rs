@@ -24,7 +24,7 @@ type Found<T> = Result<T, (Option<Range<usize>>, Problem)>;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
-    vocabulary: Option<PathBuf>,
+    vocabulary: Option<Spanned<PathBuf>>,
     sensor: Option<Spanned<Sensor>>,
     #[serde(default)]
     object: Vec<Spanned<Thing>>,
@@ -131,11 +131,24 @@ impl SceneFile {
     /// The vocabulary file it names, relative to itself.
     #[must_use]
     pub fn vocabulary(&self) -> Option<PathBuf> {
-        let named = self.written.vocabulary.as_ref()?;
+        let named = self.written.vocabulary.as_ref()?.as_ref();
         Some(match Path::new(&self.name).parent() {
             Some(folder) => folder.join(named),
             None => named.clone(),
         })
+    }
+
+    /// That the vocabulary file it names is not there, for this reason, at the line that names it.
+    #[must_use]
+    pub fn without_vocabulary(&self, why: String) -> SceneFileError {
+        let place = self.written.vocabulary.as_ref().map(Spanned::span);
+        let path = self.vocabulary().unwrap_or_default();
+        FileError::new(
+            &self.name,
+            &self.text,
+            place,
+            Problem::NoVocabulary { path, why },
+        )
     }
 
     /// The things it describes, in a vocabulary's terms.
@@ -153,7 +166,7 @@ impl SceneFile {
                 entity(category, called, thing.as_ref(), lexicon)
                     .and_then(|e| {
                         let pushed = checked.push(e, lexicon.vocabulary());
-                        pushed.map_err(|e| (Some(place_of(&e, thing)), Problem::Refused(e)))
+                        pushed.map_err(|e| (Some(place_of(&e, thing)), refused(e, thing)))
                     })
                     .map_err(|(place, problem)| {
                         FileError::new(&self.name, &self.text, place, problem)
@@ -208,6 +221,14 @@ fn place_of(error: &SceneError, thing: &Spanned<Thing>) -> Range<usize> {
     match error {
         SceneError::BadPosition { .. } => thing.span(),
         _ => thing.as_ref().name.span(),
+    }
+}
+
+/// What the core refused, by name where a name says it.
+fn refused(error: SceneError, thing: &Spanned<Thing>) -> Problem {
+    match error {
+        SceneError::Duplicate { .. } => Problem::Twice(thing.as_ref().name.as_ref().clone()),
+        _ => Problem::Refused(error),
     }
 }
 

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use deictic_core::category::Category;
 use deictic_core::vocabulary::VocabularyError;
-use toml::Spanned;
 
+use super::CategoryEntries;
 use super::error::VocabularyProblem as Problem;
-use super::file::{self, File};
+use super::file::File;
 use super::load::{Found, saturate};
-use super::{CategoryEntries, Entry};
+use super::written::Written;
 
 /// The names of the categories that every vocabulary can have, in the core's order.
 const FIXED: [&str; 7] = [
@@ -29,16 +29,18 @@ pub(super) fn categories(file: &File) -> Found<Vec<CategoryEntries>> {
         lists.extend(Category::from_index(q).map(|c| empty(c, name)));
     }
     for action in &file.action {
-        let entry = Entry {
-            name: action.name.as_ref().clone(),
-            words: action.words.clone(),
-            gestures: action.gestures.clone(),
+        let (name, place) = (action.name.as_ref(), action.name.span());
+        let written = Written {
+            name,
+            place,
+            words: &action.words,
+            gestures: &action.gestures,
         };
-        add(&mut lists[0], entry, action.name.span())?;
+        add(&mut lists[0], &written)?;
     }
     for (list, choices) in [(1, &file.object), (2, &file.storage)] {
         for choice in choices {
-            add(&mut lists[list], entry_of(choice), choice.span())?;
+            add(&mut lists[list], &Written::of(choice))?;
         }
     }
     for parameter in &file.parameter {
@@ -69,16 +71,17 @@ pub(super) fn categories(file: &File) -> Found<Vec<CategoryEntries>> {
             return Err((Some(place), twice));
         }
         for choice in &parameter.options {
-            add(&mut lists[at], entry_of(choice), choice.span())?;
+            add(&mut lists[at], &Written::of(choice))?;
         }
         if parameter.options.is_empty() {
             lists[at].quantity_only = true;
-            let own = Entry {
-                name: name.clone(),
-                words: Vec::new(),
-                gestures: Vec::new(),
+            let own = Written {
+                name,
+                place,
+                words: &[],
+                gestures: &[],
             };
-            add(&mut lists[at], own, place)?;
+            add(&mut lists[at], &own)?;
         }
     }
     while lists.len() > 1 && lists.last().is_some_and(|c| c.entries.is_empty()) {
@@ -96,25 +99,16 @@ fn empty(category: Category, name: &str) -> CategoryEntries {
     }
 }
 
-fn entry_of(choice: &Spanned<file::Choice>) -> Entry {
-    let choice = choice.as_ref();
-    Entry {
-        name: choice.name.clone(),
-        words: choice.words.clone(),
-        gestures: choice.gestures.clone(),
-    }
-}
-
-fn add(list: &mut CategoryEntries, entry: Entry, place: Range<usize>) -> Found<()> {
-    check_name(&entry.name, &place)?;
-    if list.entries.iter().any(|e| e.name == entry.name) {
+fn add(list: &mut CategoryEntries, written: &Written<'_>) -> Found<()> {
+    check_name(written.name, &written.place)?;
+    if list.entries.iter().any(|e| e.name == *written.name) {
         let twice = Problem::Twice {
             category: list.name.clone(),
-            name: entry.name,
+            name: written.name.to_owned(),
         };
-        return Err((Some(place), twice));
+        return Err((Some(written.place.clone()), twice));
     }
-    list.entries.push(entry);
+    list.entries.push(written.entry(list)?);
     Ok(())
 }
 

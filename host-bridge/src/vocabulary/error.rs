@@ -26,6 +26,30 @@ pub enum VocabularyProblem {
         /// The name.
         name: String,
     },
+    /// A word or gesture without a letter or figure.
+    #[error("a word or gesture of \"{0}\" is empty")]
+    EmptyWord(String),
+    /// One word or gesture stands for two options of a category.
+    #[error("\"{word}\" stands for \"{first}\" and for \"{second}\"")]
+    Shared {
+        /// The word or gesture.
+        word: String,
+        /// One option.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// A gesture that is spelt almost as one that hands are read for.
+    #[error("no gesture \"{name}\" is known")]
+    UnknownGesture {
+        /// What was written.
+        name: String,
+        /// What may be meant.
+        nearest: &'static str,
+    },
+    /// A gesture that separates words, or opens a target word.
+    #[error("the gesture \"{0}\" cannot stand for an action: it separates words, or points")]
+    Reserved(String),
     /// A category that cannot be a parameter, as it has a place of its own in the file.
     #[error("\"{0}\" is not a parameter")]
     NotAParameter(String),
@@ -56,13 +80,27 @@ pub enum VocabularyProblem {
         /// What there is.
         known: Vec<String>,
     },
-    /// A similarity table is not square, or a likelihood in it is not in 0..=1.
-    #[error("the similarity table of \"{category}\" is not {size} x {size} likelihoods")]
-    BadTable {
+    /// A similarity table has not a row per option, or a row has not a number per option.
+    #[error(
+        "the similarity table of \"{category}\" is {rows} x {columns}, and there are {size} of them"
+    )]
+    TableSize {
         /// Whose table.
         category: String,
+        /// How many rows it has.
+        rows: usize,
+        /// How many numbers the first row of another length than the options' has, or all rows have.
+        columns: usize,
         /// How many options the category has.
         size: usize,
+    },
+    /// A likelihood in a similarity table is not in 0..=1.
+    #[error("{value} in the similarity table of \"{category}\" is no likelihood")]
+    NoLikelihood {
+        /// Whose table.
+        category: String,
+        /// What was written.
+        value: f32,
     },
     /// The core refused it.
     #[error("{}", explain::vocabulary_error(.0).what)]
@@ -104,10 +142,21 @@ impl Problem for VocabularyProblem {
                 did_you_mean(name, known.iter().map(String::as_str)),
                 quoted(known.iter().map(String::as_str))
             ),
-            Self::BadTable { size, .. } => format!(
-                "write {size} rows of {size} numbers in 0..=1, a row per true option in the \
-                 file's order, or a single number for all other options"
+            Self::TableSize { size, .. } => format!(
+                "add or take out a row and a column, so that there are {size} of each in the file's order; or \
+                 delete the table: all similarity tables may be left out"
             ),
+            Self::NoLikelihood { .. } => {
+                "write numbers from 0 to 1: a row per option, or a single number for all other options".into()
+            }
+            Self::EmptyWord(_) => "write what people say or show, or take it out".into(),
+            Self::Shared { second, .. } => {
+                format!("keep it where it belongs, and take it out of the other or give \"{second}\" another")
+            }
+            Self::UnknownGesture { nearest, .. } => format!(
+                "did you mean \"{nearest}\"? A gesture of your own (`deictic gestures learn`) needs a name less like it"
+            ),
+            Self::Reserved(_) => "take another: docs/hand.md lists them".into(),
             Self::Refused(error) => explain::vocabulary_error(error).remedy,
         }
     }

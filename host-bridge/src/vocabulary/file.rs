@@ -16,8 +16,7 @@ pub type Name = Spanned<String>;
 #[serde(deny_unknown_fields)]
 pub struct File {
     pub name: String,
-    #[serde(default = "english")]
-    pub language: String,
+    pub language: Option<Name>,
     #[serde(default)]
     pub features: Vec<Name>,
     pub stop: Option<Name>,
@@ -35,19 +34,15 @@ pub struct File {
     pub similarity: Similarity,
 }
 
-fn english() -> String {
-    "en".to_owned()
-}
-
 /// `[[action]]`
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Action {
     pub name: Name,
     #[serde(default)]
-    pub words: Vec<String>,
+    pub words: Vec<Name>,
     #[serde(default)]
-    pub gestures: Vec<String>,
+    pub gestures: Vec<Name>,
     pub motion: Option<String>,
     #[serde(default)]
     pub compulsory: Vec<Name>,
@@ -63,8 +58,8 @@ pub struct Action {
 #[derive(Debug)]
 pub struct Choice {
     pub name: String,
-    pub words: Vec<String>,
-    pub gestures: Vec<String>,
+    pub words: Vec<Name>,
+    pub gestures: Vec<Name>,
 }
 
 /// `[[parameter]]`
@@ -103,9 +98,9 @@ impl<'de> Deserialize<'de> for Choice {
         struct Full {
             name: String,
             #[serde(default)]
-            words: Vec<String>,
+            words: Vec<Name>,
             #[serde(default)]
-            gestures: Vec<String>,
+            gestures: Vec<Name>,
         }
 
         struct NameOrTable;

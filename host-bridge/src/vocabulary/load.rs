@@ -96,7 +96,10 @@ fn build(file: File) -> Found<Lexicon> {
     Ok(Lexicon {
         motions: motions.collect(),
         name: file.name,
-        language: file.language,
+        language_place: file.language.as_ref().map(Spanned::span),
+        language: file
+            .language
+            .map_or_else(|| "en".to_owned(), Spanned::into_inner),
         vocabulary,
         categories,
         features,

@@ -6,6 +6,9 @@ mod error;
 mod file;
 mod load;
 mod similarity;
+mod written;
+
+use std::ops::Range;
 
 use deictic_core::category::Category;
 use deictic_core::large;
@@ -57,6 +60,7 @@ pub struct CategoryEntries {
 pub struct Lexicon {
     name: String,
     language: String,
+    language_place: Option<Range<usize>>,
     vocabulary: large::Vocabulary,
     categories: Vec<CategoryEntries>,
     motions: Vec<String>,
@@ -76,6 +80,12 @@ impl Lexicon {
     #[must_use]
     pub fn language(&self) -> &str {
         &self.language
+    }
+
+    /// Where in its file it names its language, in bytes.
+    #[must_use]
+    pub fn language_place(&self) -> Option<Range<usize>> {
+        self.language_place.clone()
     }
 
     /// What the core makes of it.

@@ -83,25 +83,39 @@ pub(super) fn load(
                 };
                 return Err((Some(table.span()), problem));
             };
-            let size = list.entries.len();
-            let unit = |x: &f32| (0.0..=1.0).contains(x);
-            let rows = match table.as_ref() {
-                Table::Others(others) if unit(others) => Rows::Others(*others),
-                Table::Rows(rows)
-                    if rows.len() == size
-                        && rows.iter().all(|r| r.len() == size && r.iter().all(unit)) =>
-                {
-                    Rows::Square(rows.clone())
-                }
-                _ => {
-                    let category = name.clone();
-                    return Err((Some(table.span()), Problem::BadTable { category, size }));
-                }
-            };
+            let rows = checked(table.as_ref(), name, list.entries.len());
+            let rows = rows.map_err(|problem| (Some(table.span()), problem))?;
             tables.insert(modality, list.category, rows);
         }
     }
     Ok(tables)
+}
+
+/// A table of a category of this many options.
+fn checked(table: &Table, category: &str, size: usize) -> Result<Rows, Problem> {
+    let (rows, figures) = match table {
+        Table::Others(others) => (Rows::Others(*others), vec![*others]),
+        Table::Rows(rows) => {
+            let lengths = || rows.iter().map(Vec::len);
+            let odd = lengths().find(|length| *length != size);
+            if rows.len() != size || odd.is_some() {
+                return Err(Problem::TableSize {
+                    category: category.to_owned(),
+                    rows: rows.len(),
+                    columns: odd.unwrap_or(size),
+                    size,
+                });
+            }
+            (Rows::Square(rows.clone()), rows.concat())
+        }
+    };
+    match figures.into_iter().find(|x| !(0.0..=1.0).contains(x)) {
+        None => Ok(rows),
+        Some(value) => {
+            let category = category.to_owned();
+            Err(Problem::NoLikelihood { category, value })
+        }
+    }
 }
 
 #[cfg(test)]

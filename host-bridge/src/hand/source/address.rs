@@ -53,7 +53,10 @@ impl FromStr for Address {
             }),
             "file" => Self::File(PathBuf::from(rest)),
             "made-up" => {
-                let (seed, acts) = rest.split_once(':').unwrap_or((rest, ""));
+                let (seed, acts) = rest.split_once(':').ok_or_else(error)?;
+                if acts.trim().is_empty() {
+                    return Err(error());
+                }
                 Self::MadeUp {
                     seed: seed.parse().map_err(|_| error())?,
                     acts: acts.to_owned(),
@@ -93,6 +96,9 @@ mod tests {
             "kinect",
             "file:",
             "made-up:x",
+            "made-up:1",
+            "made-up:1:",
+            "made-up:1: ",
             "usb:1",
         ] {
             assert!(written.parse::<Address>().is_err(), "{written}");

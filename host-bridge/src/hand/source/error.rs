@@ -34,13 +34,12 @@ pub enum SourceError {
         /// What was to be opened.
         what: String,
         /// What the system said.
-        #[source]
         cause: io::Error,
     },
     /// A file or connection broke off.
     #[error("reading stopped: {0}")]
     #[diagnostic(help("start what writes it again"))]
-    Broken(#[source] io::Error),
+    Broken(io::Error),
     /// A message is not of the expected form.
     #[error("message {number} is not of the expected form: {why}")]
     #[diagnostic(help(
@@ -61,10 +60,10 @@ pub enum SourceError {
         /// What cannot be.
         error: WireError,
     },
-    /// A recording holds nothing.
-    #[error("{0} holds no sample")]
+    /// A file that does not begin as a recording does.
+    #[error("{0} is no recording of a hand")]
     #[diagnostic(help("record one with `deictic hand --record FILE`"))]
-    Empty(String),
+    NoRecording(String),
     /// A made-up person is to do what nobody can.
     #[error("{0}")]
     #[diagnostic(help("{}", .0.remedy()))]

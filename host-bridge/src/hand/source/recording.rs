@@ -13,7 +13,7 @@ use super::SourceError;
 /// Reads a recording.
 ///
 /// # Errors
-/// [`SourceError`]: it cannot be read, holds nothing, or a frame in it is damaged.
+/// [`SourceError`]: it cannot be read, is no recording, or a frame in it is damaged.
 pub fn read(path: &Path) -> Result<Vec<Sample>, SourceError> {
     let what = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|cause| SourceError::Unopened {
@@ -28,10 +28,14 @@ pub fn read(path: &Path) -> Result<Vec<Sample>, SourceError> {
             continue;
         };
         number += 1;
-        samples.push(sample.map_err(|error| SourceError::Unsound { number, error })?);
+        match sample {
+            Ok(sample) => samples.push(sample),
+            Err(_) if samples.is_empty() => return Err(SourceError::NoRecording(what)),
+            Err(error) => return Err(SourceError::Unsound { number, error }),
+        }
     }
     if samples.is_empty() {
-        return Err(SourceError::Empty(what));
+        return Err(SourceError::NoRecording(what));
     }
     Ok(samples)
 }

@@ -84,7 +84,7 @@ impl Bench {
     pub fn new() -> anyhow::Result<Self> {
         let lexicon = Lexicon::tabletop()?;
         let table = SceneFile::table()?.tabletop(&lexicon)?;
-        let setup = HandSetup::new(&lexicon, table.hand(), Taught::default())?;
+        let setup = HandSetup::new(&lexicon, table.hand(), Taught::default());
         let mut mapping = Mapping::new();
         let actions = lexicon.entries(Category::ACTION).len();
         for meaning in &setup.meanings {

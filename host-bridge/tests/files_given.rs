@@ -1,0 +1,165 @@
+//! Files that a person gives: what is wrong with them is told with the file, the line and what to do.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const TABLETOP: &str = include_str!("../data/tabletop.toml");
+const TABLE: &str = include_str!("../data/scenes/table.toml");
+
+/// A folder of this test's own.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("files_given")
+        .join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// What a command that is refused says, in one line.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_deictic"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let (out, err) = (output.stdout, String::from_utf8(output.stderr).unwrap());
+    assert!(
+        !output.status.success(),
+        "{arguments:?} was taken: {}",
+        String::from_utf8_lossy(&out)
+    );
+    let words = err.split(|c: char| c.is_whitespace() || c == '│');
+    words
+        .filter(|word| !word.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+const PICK: [&str; 3] = ["decide", "--say", "pick the can"];
+
+fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "no {part:?} in: {text}");
+    }
+}
+
+#[test]
+fn a_scene_whose_vocabulary_is_not_there_says_in_which_line_it_names_it() {
+    let folder = folder("moved");
+    std::fs::write(folder.join("table.toml"), TABLE).unwrap();
+    let error = refused(&folder, &[&PICK[..], &["--scene", "table.toml"]].concat());
+    has(
+        &error,
+        &[
+            "table.toml:4:",
+            "tabletop.toml cannot be read",
+            "as seen from this file",
+        ],
+    );
+    assert_eq!(error.matches("No such file").count(), 1, "{error}");
+}
+
+#[test]
+fn a_vocabulary_without_its_scene_asks_for_it() {
+    let folder = folder("alone");
+    let own = "name = \"x\"\n[[action]]\nname = \"sweep\"\ncompulsory = [\"object\"]\n[[object]]\nname = \"crumb\"\n";
+    std::fs::write(folder.join("mine.toml"), own).unwrap();
+    let error = refused(
+        &folder,
+        &[
+            "decide",
+            "--say",
+            "sweep the crumb",
+            "--vocabulary",
+            "mine.toml",
+        ],
+    );
+    has(&error, &["mine.toml", "--scene FILE"]);
+}
+
+#[test]
+fn a_language_without_a_pack_is_shown_in_its_line() {
+    let folder = folder("language");
+    for (language, why) in [("de", "no language pack"), ("mine.toml", "mine.toml")] {
+        let text = TABLETOP.replace("language = \"en\"", &format!("language = \"{language}\""));
+        std::fs::write(folder.join("words.toml"), text).unwrap();
+        let error = refused(
+            &folder,
+            &[&PICK[..], &["--vocabulary", "words.toml"]].concat(),
+        );
+        has(&error, &["words.toml:3:", why]);
+    }
+}
+
+#[test]
+fn a_thing_that_is_there_twice_is_named() {
+    let folder = folder("twice");
+    let (_, things) = TABLE
+        .split_once("vocabulary = \"../tabletop.toml\"\n")
+        .unwrap();
+    let twice = format!("{things}\n[[object]]\nname = \"can\"\nposition = [0, 0, 0]\n");
+    std::fs::write(folder.join("desk.toml"), twice).unwrap();
+    let error = refused(&folder, &[&PICK[..], &["--scene", "desk.toml"]].concat());
+    has(&error, &["the can is on the table twice", "desk.toml:"]);
+}
+
+#[test]
+fn what_is_no_recording_and_no_gesture_is_said_to_be_none() {
+    let folder = folder("hands");
+    std::fs::write(folder.join("text.hand"), "hello\0there\0").unwrap();
+    std::fs::write(folder.join("empty.hand"), "").unwrap();
+    for file in ["text.hand", "empty.hand"] {
+        let recording = format!("zigzag={file}");
+        let error = refused(
+            &folder,
+            &["gestures", "learn", &recording, "--out", "x.gestures"],
+        );
+        has(
+            &error,
+            &[
+                &format!("{file} is no recording of a hand"),
+                "--record FILE",
+            ],
+        );
+    }
+    let error = refused(
+        &folder,
+        &[
+            "gestures",
+            "learn",
+            "zigzag=none.hand",
+            "--out",
+            "x.gestures",
+        ],
+    );
+    assert_eq!(error.matches("No such file").count(), 1, "{error}");
+    let error = refused(&folder, &["gestures", "aim", "cup", "--out", "x.aim"]);
+    has(&error, &["--hand <SENSOR>", "--board <ADDRESS>"]);
+    let error = refused(&folder, &["hand", "--hand", "made-up:1:"]);
+    has(&error, &["made-up:1:thumbsup cup drawer"]);
+}
+
+#[test]
+fn a_taught_gesture_has_a_name_of_its_own() {
+    let folder = folder("taught");
+    let known = deictic::hand::taught::Taught::default();
+    for names in [vec![""], vec!["zigzag", "zigzag"], vec!["wave"]] {
+        let gestures = names.iter().map(|n| (*n).to_owned()).collect();
+        let taught = deictic::hand::taught::Taught {
+            gestures,
+            ..known.clone()
+        };
+        std::fs::write(folder.join("x.gestures"), toml::to_string(&taught).unwrap()).unwrap();
+        let error = refused(
+            &folder,
+            &[
+                "hand",
+                "--hand",
+                "made-up:1:cup",
+                "--gestures",
+                "x.gestures",
+            ],
+        );
+        has(&error, &["has no name of its own", "x.gestures"]);
+    }
+}
