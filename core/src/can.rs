@@ -1,4 +1,4 @@
-//! Classic CAN frames with 11-bit identifiers, and a stream of bytes in them.
+//! CAN frames with 11-bit identifiers, classic ones and those of CAN FD, and a stream of bytes in classic ones.
 //!
 //! The unit and its host are two nodes on a bus that others may share: what they would say over a
 //! serial line goes in frames of [`TO_UNIT`] and [`FROM_UNIT`], up to seven bytes in each behind a
@@ -16,7 +16,10 @@ pub const FROM_UNIT: u16 = 0x201;
 /// Stream bytes in a frame at most.
 pub const STREAM_BYTES: usize = 7;
 
-/// A frame.
+/// Bytes in a frame of CAN FD at most.
+pub const FLEXIBLE: usize = 64;
+
+/// A classic frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     id: u16,
@@ -67,6 +70,82 @@ impl Frame {
             Some((count, bytes)) => bytes.get(..usize::from(*count)).unwrap_or(&[]),
             None => &[],
         }
+    }
+}
+
+/// A frame of CAN FD (ISO 11898-1:2015).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FlexibleFrame {
+    id: u16,
+    data: Vec<u8, FLEXIBLE>,
+}
+
+impl FlexibleFrame {
+    /// A frame with this identifier, of 11 bits, and these at most 64 bytes, with zeros up to the next length that such a
+    /// frame can have: 0 to 8, 12, 16, 20, 24, 32, 48, 64.
+    #[must_use]
+    pub fn new(id: u16, data: &[u8]) -> Option<Self> {
+        if id > 0x7ff {
+            return None;
+        }
+        let mut data: Vec<u8, FLEXIBLE> = Vec::from_slice(data).ok()?;
+        let length = match data.len() {
+            length @ 0..=8 => length,
+            length @ 9..=24 => length.next_multiple_of(4),
+            25..=32 => 32,
+            33..=48 => 48,
+            _ => FLEXIBLE,
+        };
+        data.resize(length, 0).ok()?;
+        Some(Self { id, data })
+    }
+
+    /// Its identifier.
+    #[must_use]
+    pub fn id(&self) -> u16 {
+        self.id
+    }
+
+    /// Its bytes.
+    #[must_use]
+    pub fn data(&self) -> &[u8] {
+        &self.data
+    }
+}
+
+/// A frame of either kind.
+pub trait BusFrame: Sized {
+    /// Bytes in it at most.
+    const ROOM: usize;
+
+    /// A frame with this identifier and these bytes; `None` when either does not fit.
+    fn of(id: u16, data: &[u8]) -> Option<Self>;
+
+    /// Its identifier and bytes.
+    fn parts(&self) -> (u16, &[u8]);
+}
+
+impl BusFrame for Frame {
+    const ROOM: usize = 8;
+
+    fn of(id: u16, data: &[u8]) -> Option<Self> {
+        Self::new(id, data)
+    }
+
+    fn parts(&self) -> (u16, &[u8]) {
+        (self.id, &self.data)
+    }
+}
+
+impl BusFrame for FlexibleFrame {
+    const ROOM: usize = FLEXIBLE;
+
+    fn of(id: u16, data: &[u8]) -> Option<Self> {
+        Self::new(id, data)
+    }
+
+    fn parts(&self) -> (u16, &[u8]) {
+        (self.id, &self.data)
     }
 }
 
@@ -121,6 +200,20 @@ mod tests {
             rest = &rest[carried..];
         }
         assert_eq!(arrived, bytes);
+    }
+
+    #[test]
+    fn a_flexible_frame_has_a_length_that_its_code_can_say() {
+        let lengths = [0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64];
+        for given in 0..=FLEXIBLE {
+            let frame = FlexibleFrame::new(5, &[7; FLEXIBLE][..given]).unwrap();
+            let wanted = lengths.iter().find(|l| **l >= given).unwrap();
+            assert_eq!(frame.data().len(), *wanted);
+            let (sevens, zeros) = frame.data().split_at(given);
+            assert!(sevens.iter().all(|b| *b == 7) && zeros.iter().all(|b| *b == 0));
+        }
+        assert!(FlexibleFrame::new(5, &[0; FLEXIBLE + 1]).is_none());
+        assert!(FlexibleFrame::new(0x800, &[]).is_none());
     }
 
     #[test]

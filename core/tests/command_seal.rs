@@ -1,5 +1,6 @@
 //! Sealed messages of the command set: a guard takes what the other side's guard has said, once, and nothing else.
 
+use deictic_core::can::Frame;
 use deictic_core::command::Packet;
 use deictic_core::command::code::{Outcome, State};
 use deictic_core::command::field::{Id, Number};
@@ -172,7 +173,7 @@ fn sealed_messages_go_in_long_frames() {
     let (mut host, mut robot) = both(ON_A_BUS);
     let said = host.say(&home(1));
     let mut assembler = Assembler::new(Sender::Host);
-    let carried: Vec<_> = frames(Sender::Host, one(&said)).collect();
+    let carried: Vec<Frame> = frames(Sender::Host, one(&said)).collect();
     // 7 bytes, 2 of a counter and 4 of a tag; identifier and check add 4.
     assert_eq!(carried.len(), 3);
     assert!(carried.iter().all(|f| f.id() == Sender::Host.long_id()));

@@ -8,12 +8,9 @@ mod can;
 #[path = "common/trial.rs"]
 mod trial;
 
-use std::io::{BufRead, BufReader};
-use std::process::{Child, Command as Process, Stdio};
-use std::thread;
 use std::time::Duration;
 
-use can::{Slcand, interface, run};
+use can::{Slcand, Witness, interface, run};
 use deictic::robot::Event;
 use deictic::robot::end::Listener;
 use deictic::robot::way::Way;
@@ -22,35 +19,6 @@ use deictic_core::command::field::{Id, Number};
 use deictic_core::command::message::{FromRobot, Halt, ToRobot};
 use deictic_core::command::parcel::{Assembler, Sender, frames};
 use trial::{Far, Near};
-
-/// `candump`, and what it has seen.
-struct Witness(Child);
-
-impl Witness {
-    fn of(interface: &str) -> Self {
-        let mut process = Process::new("candump");
-        process.args(["-L", interface]).stdout(Stdio::piped());
-        let witness = Self(process.spawn().unwrap());
-        thread::sleep(Duration::from_millis(300));
-        witness
-    }
-
-    fn frames(mut self) -> Vec<Frame> {
-        thread::sleep(Duration::from_millis(200));
-        self.0.kill().unwrap();
-        let output = BufReader::new(self.0.stdout.take().unwrap());
-        let lines = output.lines().map_while(Result::ok);
-        let frames = lines.filter_map(|line| {
-            let (id, data) = line.split_whitespace().nth(2)?.split_once('#')?;
-            let byte = |at| u8::from_str_radix(data.get(at..at + 2)?, 16).ok();
-            let data: Option<Vec<u8>> = (0..data.len()).step_by(2).map(byte).collect();
-            Frame::new(u16::from_str_radix(id, 16).ok()?, &data?)
-        });
-        let frames = frames.collect();
-        self.0.wait().unwrap();
-        frames
-    }
-}
 
 #[test]
 fn a_witness_sees_a_command_and_all_that_follows() {
@@ -65,6 +33,7 @@ fn a_witness_sees_a_command_and_all_that_follows() {
     let (mut host, mut robot) = (Assembler::new(Sender::Host), Assembler::new(Sender::Robot));
     let (mut said, mut answered) = (Vec::new(), Vec::new());
     for frame in &seen {
+        let frame = &Frame::new(frame.id(), frame.data()).unwrap();
         assert_eq!(frame.data().len(), 8);
         if let Some(packet) = host.take(frame) {
             said.push(ToRobot::read(&packet.unwrap()).unwrap());
@@ -97,7 +66,7 @@ fn a_halt_of_anybody_on_the_bus_stops_the_arm() {
     let halt = ToRobot::Halt(Halt {
         id: Id { run: 0, number },
     });
-    for frame in frames(Sender::Host, &halt.packet()) {
+    for frame in frames::<Frame>(Sender::Host, &halt.packet()) {
         let data: String = frame.data().iter().map(|b| format!("{b:02X}")).collect();
         run("cansend", &[&name, &format!("{:03X}#{data}", frame.id())]);
     }

@@ -46,7 +46,10 @@ pub fn has_can() -> bool {
             .status();
         status.is_ok_and(|s| s.success())
     };
-    let _ = ip(&["link", "add", INTERFACE, "type", "vcan"]);
+    // With frames of CAN FD; that cannot be set while it is up.
+    if ip(&["link", "add", INTERFACE, "type", "vcan"]) {
+        let _ = ip(&["link", "set", INTERFACE, "mtu", "72"]);
+    }
     ip(&["link", "set", INTERFACE, "up"])
 }
 
@@ -93,7 +96,7 @@ mount -t tmpfs none /run
 mkdir -p /run/modules/lib && ln -s /usr/lib/uml/modules /run/modules/lib/modules
 for module in can can-raw vcan slcan; do modprobe -d /run/modules $module; done
 ip link set lo up
-ip link add {INTERFACE} type vcan && ip link set {INTERFACE} up
+ip link add {INTERFACE} mtu 72 type vcan && ip link set {INTERFACE} up
 cd '{}'
 {lines}
 echo '{VERDICT}'$?

@@ -9,7 +9,7 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use deictic_core::align::Alignment;
-use deictic_core::can::Frame;
+use deictic_core::can::{FlexibleFrame, Frame};
 use deictic_core::category::{BitSet, Category};
 use deictic_core::clarify::choose::choose;
 use deictic_core::clarify::{Confirmation, gain};
@@ -249,6 +249,10 @@ fn lines() {
         let mut assembler = Assembler::new(sender);
         for frame in frames(sender, &packet) {
             black_box(line(&frame).len());
+            black_box(assembler.take(&frame).is_some());
+        }
+        for frame in frames::<FlexibleFrame>(sender, &packet) {
+            black_box((frame.id(), frame.data().len()));
             black_box(assembler.take(&frame).is_some());
         }
     }

@@ -27,7 +27,7 @@ use crate::robot::way::Way;
 #[derive(Args, Clone, Debug)]
 #[command(verbatim_doc_comment)]
 pub struct RobotSim {
-    /// Where: can:INTERFACE, slcan:PORT, serial:PORT, tcp:127.0.0.1:PORT, slcan:tcp:127.0.0.1:PORT;
+    /// Where: can:INTERFACE, can:INTERFACE,fd for CAN FD, slcan:PORT, serial:PORT, tcp:127.0.0.1:PORT, slcan:tcp:127.0.0.1:PORT;
     /// serial:pty and slcan:pty make a pseudo-terminal and name it
     #[arg(long, value_name = "ADDRESS")]
     listen: String,

@@ -56,7 +56,7 @@ pub struct Run {
     /// The unit: serial:PORT@BAUD, tcp:HOST:PORT, can:INTERFACE, slcan:PORT, qemu, or inside for none
     #[arg(long, value_name = "ADDRESS")]
     board: Address,
-    /// The robot: sim, can:INTERFACE, slcan:PORT, serial:PORT@BAUD, tcp:HOST:PORT, or
+    /// The robot: sim, can:INTERFACE, can:INTERFACE,fd, slcan:PORT, serial:PORT@BAUD, tcp:HOST:PORT, or
     /// fci:HOST[,no-realtime] for a Panda or Research 3 on its own interface
     #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
     robot: robot::address::Address,

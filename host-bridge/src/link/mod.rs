@@ -11,6 +11,7 @@ mod tcp;
 use std::io;
 use std::time::Duration;
 
+use deictic_core::can::FlexibleFrame;
 use deictic_core::protocol::seal::Key;
 
 pub use address::{Address, AddressError, Line, LineError};
@@ -176,17 +177,29 @@ pub fn open_adapter(line: &Line) -> Result<Box<dyn bus::Bus>, WireError> {
     }
 }
 
-/// Opens a CAN interface of this machine.
+/// Opens a CAN interface of this machine, for classic frames.
 ///
 /// # Errors
 /// [`WireError`] with what to do about it.
 pub fn open_interface(interface: &str) -> Result<Box<dyn bus::Bus>, WireError> {
-    #[cfg(target_os = "linux")]
-    let opened = bus::Socket::open(interface).map(|socket| Box::new(socket) as Box<dyn bus::Bus>);
-    #[cfg(not(target_os = "linux"))]
-    let opened = Err(io::Error::from(io::ErrorKind::Unsupported));
-    opened.map_err(|cause| WireError::Bus {
-        bus: interface.to_owned(),
-        cause,
-    })
+    open_socket(interface, |socket| Box::new(socket))
+}
+
+/// Opens a CAN interface of this machine, for frames of CAN FD and classic ones.
+///
+/// # Errors
+/// [`WireError`] with what to do about it.
+pub fn open_flexible_interface(
+    interface: &str,
+) -> Result<Box<dyn bus::Bus<FlexibleFrame>>, WireError> {
+    open_socket(interface, |socket| Box::new(socket))
+}
+
+fn open_socket<B>(interface: &str, boxed: fn(bus::Socket) -> B) -> Result<B, WireError> {
+    bus::Socket::open(interface)
+        .map(boxed)
+        .map_err(|cause| WireError::Bus {
+            bus: interface.to_owned(),
+            cause,
+        })
 }

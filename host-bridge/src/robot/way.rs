@@ -21,6 +21,8 @@ const PATIENCE: Duration = Duration::from_secs(3);
 pub enum Way {
     /// A CAN bus of this machine: `can:can0`.
     Can(String),
+    /// The same in frames of CAN FD: `can:can0,fd`.
+    Flexible(String),
     /// A CAN bus behind a LAWICEL adapter: `slcan:/dev/ttyACM0`, `slcan:tcp:127.0.0.1:7700`.
     Slcan(Line),
     /// A stream: `serial:/dev/ttyACM0`, `tcp:127.0.0.1:7700`.
@@ -30,7 +32,7 @@ pub enum Way {
 /// A way that cannot be understood.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is not a link that the command set goes over; write can:can0, slcan:/dev/ttyACM0, serial:/dev/ttyACM0 or \
+    "`{0}` is not a link that the command set goes over; write can:can0, can:can0,fd, slcan:/dev/ttyACM0, serial:/dev/ttyACM0 or \
      tcp:127.0.0.1:7700"
 )]
 pub struct WayError(String);
@@ -97,7 +99,7 @@ impl Way {
     #[must_use]
     pub fn tag(&self) -> usize {
         match self {
-            Self::Can(_) | Self::Slcan(_) => ON_A_BUS,
+            Self::Can(_) | Self::Flexible(_) | Self::Slcan(_) => ON_A_BUS,
             Self::Line(_) => ON_A_STREAM,
         }
     }
@@ -109,9 +111,13 @@ impl FromStr for Way {
     fn from_str(written: &str) -> Result<Self, WayError> {
         let error = || WayError(written.to_owned());
         match written.split_once(':') {
-            Some(("can", interface)) if !interface.is_empty() => {
-                Ok(Self::Can(interface.to_owned()))
-            }
+            Some(("can", rest)) => match rest.split_once(',') {
+                None if !rest.is_empty() => Ok(Self::Can(rest.to_owned())),
+                Some((interface, "fd")) if !interface.is_empty() => {
+                    Ok(Self::Flexible(interface.to_owned()))
+                }
+                _ => Err(error()),
+            },
             Some(("slcan", line)) => Line::of_adapter(line).map(Self::Slcan).ok_or_else(error),
             _ => written.parse().map(Self::Line).map_err(|_| error()),
         }
@@ -122,6 +128,7 @@ impl fmt::Display for Way {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Can(interface) => write!(f, "can:{interface}"),
+            Self::Flexible(interface) => write!(f, "can:{interface},fd"),
             Self::Slcan(line) => write!(f, "slcan:{line}"),
             Self::Line(line) => line.fmt(f),
         }
@@ -173,6 +180,10 @@ pub fn carrier(way: &Way) -> Result<Box<dyn Carrier>, WireError> {
     let on_bus = |bus| Box::new(OnBus::new(bus, Sender::Host)) as Box<dyn Carrier>;
     match way {
         Way::Can(interface) => link::open_interface(interface).map(on_bus),
+        Way::Flexible(interface) => {
+            let bus = link::open_flexible_interface(interface)?;
+            Ok(Box::new(OnBus::new(bus, Sender::Host)))
+        }
         Way::Slcan(line) => link::open_adapter(line).map(on_bus),
         Way::Line(line) => Ok(Box::new(OnWire::new(link::open_line(line)?))),
     }
@@ -186,6 +197,7 @@ mod tests {
     fn what_is_written_is_read() {
         for written in [
             "can:vcan0",
+            "can:vcan0,fd",
             "slcan:serial:/dev/ttyS0@115200",
             "slcan:tcp:127.0.0.1:7700",
             "serial:/dev/ttyACM0@921600",
@@ -193,7 +205,16 @@ mod tests {
         ] {
             assert_eq!(written.parse::<Way>().unwrap().to_string(), written);
         }
-        for written in ["", "can:", "sim", "slcan:", "tcp:x", "qemu"] {
+        for written in [
+            "",
+            "can:",
+            "can:,fd",
+            "can:vcan0,xl",
+            "sim",
+            "slcan:",
+            "tcp:x",
+            "qemu",
+        ] {
             assert!(written.parse::<Way>().is_err(), "{written}");
         }
     }

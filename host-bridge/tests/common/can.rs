@@ -1,10 +1,13 @@
 //! The CAN interface that `DEICTIC_CAN` names (`cargo xtask can` makes one), and programs that are called for it.
 #![allow(dead_code)]
 
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command as Process, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+
+use deictic_core::can::FlexibleFrame;
 
 /// The interface, for one test at a time: they switch it off and spoil it.
 pub fn interface() -> Option<(String, MutexGuard<'static, ()>)> {
@@ -51,5 +54,38 @@ impl Drop for Slcand {
     fn drop(&mut self) {
         let _ = self.0.kill();
         let _ = self.0.wait();
+    }
+}
+
+/// `candump`, and what it has seen.
+pub struct Witness(Child);
+
+impl Witness {
+    /// Of what goes over this interface from now on.
+    pub fn of(interface: &str) -> Self {
+        let mut process = Process::new("candump");
+        process.args(["-L", interface]).stdout(Stdio::piped());
+        let witness = Self(process.spawn().unwrap());
+        thread::sleep(Duration::from_millis(300));
+        witness
+    }
+
+    /// The frames, of either kind.
+    pub fn frames(mut self) -> Vec<FlexibleFrame> {
+        thread::sleep(Duration::from_millis(200));
+        self.0.kill().unwrap();
+        let output = BufReader::new(self.0.stdout.take().unwrap());
+        let lines = output.lines().map_while(Result::ok);
+        let frames = lines.filter_map(|line| {
+            let (id, data) = line.split_whitespace().nth(2)?.split_once('#')?;
+            // A frame of CAN FD has a second mark, and a digit for its flags.
+            let data = data.strip_prefix('#').map_or(Some(data), |d| d.get(1..))?;
+            let byte = |at| u8::from_str_radix(data.get(at..at + 2)?, 16).ok();
+            let data: Option<Vec<u8>> = (0..data.len()).step_by(2).map(byte).collect();
+            FlexibleFrame::new(u16::from_str_radix(id, 16).ok()?, &data?)
+        });
+        let frames = frames.collect();
+        self.0.wait().unwrap();
+        frames
     }
 }

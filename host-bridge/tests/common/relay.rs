@@ -58,7 +58,7 @@ impl Relay {
         let (line, adapter) = match robot {
             Way::Line(line) => (line.clone(), false),
             Way::Slcan(line) => (line.clone(), true),
-            Way::Can(_) => panic!("a bus has no such cable"),
+            Way::Can(_) | Way::Flexible(_) => panic!("a bus has no such cable"),
         };
         let socket = if matches!(line, Line::Tcp { .. }) {
             let port = TcpListener::bind("127.0.0.1:0").unwrap();

@@ -15,8 +15,9 @@ use crate::process::{self, cargo};
 #[derive(Args)]
 pub struct Can;
 
-const TESTS: [&str; 4] = [
+const TESTS: [&str; 5] = [
     "robot_can",
+    "robot_can_flexible",
     "robot_can_faults",
     "robot_wires",
     "robot_latency",

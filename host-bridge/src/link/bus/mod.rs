@@ -4,7 +4,7 @@ mod adapter;
 mod client;
 mod node;
 mod reading;
-#[cfg(target_os = "linux")]
+#[cfg_attr(not(target_os = "linux"), path = "no_socket.rs")]
 mod socket;
 
 use std::io;
@@ -15,22 +15,21 @@ use deictic_core::can::Frame;
 pub use adapter::Adapter;
 pub use client::Client;
 pub use node::Node;
-#[cfg(target_os = "linux")]
 pub use socket::Socket;
 
-/// A node on a bus.
-pub trait Bus: Send {
+/// A node on a bus whose frames are of kind `F`.
+pub trait Bus<F = Frame>: Send {
     /// Gives a frame to the bus.
     ///
     /// # Errors
     /// [`BusFault`] inside, where it is one; the frame was then not sent.
-    fn send(&mut self, frame: &Frame) -> io::Result<()>;
+    fn send(&mut self, frame: &F) -> io::Result<()>;
 
     /// A frame from another node, waiting up to `patience` for it; `None` when none came.
     ///
     /// # Errors
     /// [`BusFault`] inside, where it is one.
-    fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>>;
+    fn receive(&mut self, patience: Duration) -> io::Result<Option<F>>;
 }
 
 /// What can be wrong with a bus.
@@ -45,6 +44,12 @@ pub enum BusFault {
     /// Nobody takes the frames, so that the queue before the controller is full.
     #[error("the CAN queue is full and nobody takes the frames: is another node on the bus?")]
     Full,
+    /// The interface, or its controller, has classic frames only.
+    #[error(
+        "the interface takes classic frames only: `ip link set can0 type can bitrate 1000000 dbitrate 5000000 fd on` \
+         switches CAN FD on (`ip link set vcan0 mtu 72` a virtual one), or leave out `,fd`"
+    )]
+    Classic,
     /// The adapter does not do what it is told.
     #[error("the adapter refuses to send: is its bus open and alive?")]
     Refused,

@@ -3,10 +3,11 @@
 use std::io::{self, ErrorKind};
 use std::time::{Duration, Instant};
 
-use deictic_core::can::Frame;
+use deictic_core::can::{FlexibleFrame, Frame};
+use socketcan::frame::AsPtr;
 use socketcan::{
-    CanError, CanFrame, CanSocket, EmbeddedFrame, ErrorCause, Id, Socket as _, SocketOptions,
-    StandardId,
+    CanAnyFrame, CanDataFrame, CanError, CanFdFrame, CanFdSocket, EmbeddedFrame, ErrorCause, Id,
+    Socket as _, SocketOptions, StandardId,
 };
 
 use super::{Bus, BusFault};
@@ -26,7 +27,7 @@ const DOWN: [i32; 3] = [100, 19, 6];
 
 /// An open interface.
 pub struct Socket {
-    socket: CanSocket,
+    socket: CanFdSocket,
     arbitration_lost: u64,
 }
 
@@ -36,7 +37,7 @@ impl Socket {
     /// # Errors
     /// When there is no such interface, or no CAN in the kernel.
     pub fn open(interface: &str) -> io::Result<Self> {
-        let socket = CanSocket::open(interface)?;
+        let socket = CanFdSocket::open(interface)?;
         socket.set_nonblocking(true)?;
         socket.set_error_filter_accept_all()?;
         Ok(Self {
@@ -73,13 +74,11 @@ fn named(error: io::Error) -> io::Error {
     }
 }
 
-impl Bus for Socket {
-    fn send(&mut self, frame: &Frame) -> io::Result<()> {
-        let id = StandardId::new(frame.id()).ok_or(ErrorKind::InvalidInput)?;
-        let frame = CanFrame::new(id, frame.data()).ok_or(ErrorKind::InvalidInput)?;
+impl Socket {
+    fn write(&self, frame: &(impl Into<CanAnyFrame> + AsPtr)) -> io::Result<()> {
         let until = Instant::now() + FULL;
         loop {
-            match self.socket.write_frame(&frame) {
+            match self.socket.write_frame(frame) {
                 Ok(()) => return Ok(()),
                 Err(error)
                     if error.raw_os_error() == Some(NO_BUFFERS)
@@ -95,7 +94,12 @@ impl Bus for Socket {
         }
     }
 
-    fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>> {
+    /// The next frame that carries data of which `wanted` makes something.
+    fn read<F>(
+        &mut self,
+        patience: Duration,
+        wanted: impl Fn(CanAnyFrame) -> Option<F>,
+    ) -> io::Result<Option<F>> {
         let until = Instant::now() + patience;
         loop {
             let left = until.saturating_duration_since(Instant::now());
@@ -105,13 +109,12 @@ impl Bus for Socket {
                 self.socket.read_frame_timeout(left)
             };
             match read {
-                Ok(CanFrame::Data(frame)) => {
-                    if let Id::Standard(id) = frame.id() {
-                        return Ok(Frame::new(id.as_raw(), frame.data()));
+                Ok(CanAnyFrame::Error(error)) => self.report(error.into())?,
+                Ok(frame) => {
+                    if let Some(frame) = wanted(frame) {
+                        return Ok(Some(frame));
                     }
                 }
-                Ok(CanFrame::Remote(_)) => {}
-                Ok(CanFrame::Error(error)) => self.report(error.into())?,
                 Err(error)
                     if matches!(
                         error.kind(),
@@ -125,5 +128,55 @@ impl Bus for Socket {
                 Err(error) => return Err(named(error)),
             }
         }
+    }
+}
+
+fn classic(id: u16, data: &[u8]) -> io::Result<CanDataFrame> {
+    let id = StandardId::new(id).ok_or(ErrorKind::InvalidInput)?;
+    Ok(CanDataFrame::new(id, data).ok_or(ErrorKind::InvalidInput)?)
+}
+
+/// What a frame carries under an identifier of 11 bits.
+fn carried<F>(frame: &impl EmbeddedFrame, made: fn(u16, &[u8]) -> Option<F>) -> Option<F> {
+    match frame.id() {
+        Id::Standard(id) => made(id.as_raw(), frame.data()),
+        Id::Extended(_) => None,
+    }
+}
+
+impl Bus for Socket {
+    fn send(&mut self, frame: &Frame) -> io::Result<()> {
+        self.write(&classic(frame.id(), frame.data())?)
+    }
+
+    fn receive(&mut self, patience: Duration) -> io::Result<Option<Frame>> {
+        self.read(patience, |frame| match frame {
+            CanAnyFrame::Normal(frame) => carried(&frame, Frame::new),
+            _ => None,
+        })
+    }
+}
+
+impl Bus<FlexibleFrame> for Socket {
+    /// What fits a classic frame goes in one, which every node understands; the others at the bus's second bit rate.
+    fn send(&mut self, frame: &FlexibleFrame) -> io::Result<()> {
+        if frame.data().len() <= 8 {
+            return self.write(&classic(frame.id(), frame.data())?);
+        }
+        let id = StandardId::new(frame.id()).ok_or(ErrorKind::InvalidInput)?;
+        let mut frame = CanFdFrame::new(id, frame.data()).ok_or(ErrorKind::InvalidInput)?;
+        frame.set_brs(true);
+        self.write(&frame).map_err(|error| match error.kind() {
+            ErrorKind::InvalidInput => BusFault::Classic.into(),
+            _ => error,
+        })
+    }
+
+    fn receive(&mut self, patience: Duration) -> io::Result<Option<FlexibleFrame>> {
+        self.read(patience, |frame| match frame {
+            CanAnyFrame::Normal(frame) => carried(&frame, FlexibleFrame::new),
+            CanAnyFrame::Fd(frame) => carried(&frame, FlexibleFrame::new),
+            _ => None,
+        })
     }
 }

@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind};
 use std::net::{IpAddr, TcpListener};
 use std::time::{Duration, Instant};
 
+use deictic_core::can::{BusFrame, Frame};
 use deictic_core::command::Packet;
 use deictic_core::command::parcel::Sender;
 use deictic_core::command::seal::{Heard, ON_A_BUS, ON_A_STREAM};
@@ -116,6 +117,9 @@ impl Listener {
     fn accept(&self) -> io::Result<Option<Box<dyn Carrier>>> {
         let opened = match self {
             Self::At(Way::Can(interface)) => link::open_interface(interface).map(on_bus),
+            Self::At(Way::Flexible(interface)) => {
+                link::open_flexible_interface(interface).map(on_bus)
+            }
             Self::At(Way::Slcan(line)) => link::open_line(line).map(|wire| on_wire(wire, true)),
             Self::At(Way::Line(line)) => link::open_line(line).map(|wire| on_wire(wire, false)),
             Self::Pair { pair, adapter } => {
@@ -135,13 +139,13 @@ impl Listener {
     }
 }
 
-fn on_bus(bus: Box<dyn bus::Bus>) -> Box<dyn Carrier> {
+fn on_bus<F: BusFrame + 'static>(bus: Box<dyn bus::Bus<F>>) -> Box<dyn Carrier> {
     Box::new(OnBus::new(bus, Sender::Robot))
 }
 
 fn on_wire(wire: Box<dyn Wire>, adapter: bool) -> Box<dyn Carrier> {
     if adapter {
-        on_bus(Box::new(bus::Adapter::new(wire)))
+        on_bus::<Frame>(Box::new(bus::Adapter::new(wire)))
     } else {
         Box::new(OnWire::new(wire))
     }

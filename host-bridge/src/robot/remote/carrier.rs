@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::io;
 use std::time::{Duration, Instant};
 
+use deictic_core::can::{BusFrame, Frame};
 use deictic_core::command::Packet;
 use deictic_core::command::letter::Letters;
 use deictic_core::command::parcel::{Assembler, Sender, frames};
@@ -30,18 +31,18 @@ pub trait Carrier: Send {
     fn lost(&self) -> u64;
 }
 
-/// Packets in CAN frames.
-pub struct OnBus {
-    bus: Box<dyn Bus>,
+/// Packets in CAN frames, classic ones or those of CAN FD.
+pub struct OnBus<F = Frame> {
+    bus: Box<dyn Bus<F>>,
     side: Sender,
     assembler: Assembler,
     lost: u64,
 }
 
-impl OnBus {
+impl<F> OnBus<F> {
     /// The end of `side` on this bus.
     #[must_use]
-    pub fn new(bus: Box<dyn Bus>, side: Sender) -> Self {
+    pub fn new(bus: Box<dyn Bus<F>>, side: Sender) -> Self {
         let other = match side {
             Sender::Host => Sender::Robot,
             Sender::Robot => Sender::Host,
@@ -55,7 +56,7 @@ impl OnBus {
     }
 }
 
-impl Carrier for OnBus {
+impl<F: BusFrame> Carrier for OnBus<F> {
     fn send(&mut self, packet: &Packet) -> io::Result<()> {
         for frame in frames(self.side, packet) {
             self.bus.send(&frame)?;
