@@ -1,16 +1,16 @@
 //! The person's answer to the unit's question, from what they typed.
 
+mod words;
+
 use deictic_core::category::Category;
 use deictic_core::decide::{Kind, Question};
 use deictic_core::large::{Sentence, Word};
 use deictic_core::sentence::{LANGUAGE, SentenceError};
 
-use crate::language::likeness::Ear;
-use crate::language::pack::Pack;
-use crate::language::token::fold;
-use crate::language::{LanguageError, Listener};
+use crate::language::{LanguageError, Listener, Why};
 use crate::understanding::{self, Understood};
 use crate::vocabulary::Lexicon;
+use words::Words;
 
 /// What a text that was typed while a question is open comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,10 +23,13 @@ pub enum Reply {
     Command(Understood),
     /// Nothing of what was asked about is meant.
     Neither,
+    /// It does not say which: "I don't know", "both", a yes to several. The question is asked again.
+    Unclear,
 }
 
 /// Takes a text for an answer to `question` when it names one of the asked category's options, for a
-/// yes or no where there is but one candidate, and for a command of its own otherwise.
+/// yes or no where there is but one candidate, for none where it names nothing, and for a command of its own
+/// otherwise.
 ///
 /// # Errors
 /// [`LanguageError`] for a text that is not understood; the question stays open.
@@ -38,18 +41,24 @@ pub fn reply(
 ) -> Result<Reply, LanguageError> {
     let said = text.trim().trim_matches(['.', '!', ',']).to_lowercase();
     let category = question.category;
+    let words = Words::of(lexicon)?;
+    let plain = words.plain(text);
+    if words.unsure.contains(&plain) {
+        return Ok(Reply::Unclear);
+    }
     if question.kind == Kind::Confirm
-        && let Some(likelihoods) = yes_or_no(&said, lexicon)
+        && let Some(likelihoods) = words.yes_or_no(&said)
     {
         return Ok(Reply::YesOrNo(likelihoods));
     }
-    if said == "no" || said == "none" || said == "neither" {
+    if words.no.contains(&plain) {
         return Ok(Reply::Neither);
     }
-    if let ["yes" | "yeah" | "ok", ..] = said.split_whitespace().collect::<Vec<_>>()[..]
-        && let [only] = question.candidates[..]
-    {
-        return Ok(Reply::Answer(Box::new(certainly(category, only, lexicon)?)));
+    if words.yes.contains(&plain) {
+        return Ok(match question.candidates[..] {
+            [only] => Reply::Answer(Box::new(certainly(category, only, lexicon)?)),
+            _ => Reply::Unclear,
+        });
     }
     let entries = lexicon.entries(category).iter();
     let named = entries.enumerate().find(|(_, entry)| {
@@ -80,31 +89,11 @@ pub fn reply(
             }
         }
     }
+    let talk = utterance.aside.iter().all(|aside| aside.why == Why::Talk);
+    if utterance.commands.is_empty() && talk {
+        return Ok(Reply::Unclear);
+    }
     Ok(Reply::Command(understanding::of(text, utterance)))
-}
-
-/// How alike something has to be to a yes or a no to be one.
-const ALIKE: f64 = 0.6;
-
-/// How much a text sounds like a yes and like a no in the vocabulary's language; `None` when like
-/// neither. Of several words the first says it: "yes, please".
-#[must_use]
-pub fn yes_or_no(said: &str, lexicon: &Lexicon) -> Option<[f32; 2]> {
-    let pack = Pack::of(lexicon.language()).ok()?;
-    let speech = pack.speech.as_ref()?;
-    let ear = Ear::new(pack.phonetic);
-    let first = said
-        .split(|c: char| !c.is_alphanumeric())
-        .find(|w| !w.is_empty())?;
-    let heard = [ear.listen(&fold(said)), ear.listen(&fold(first))];
-    let likeness = |words: &[String]| {
-        let sounds = words.iter().map(|word| ear.listen(&fold(word)));
-        sounds
-            .flat_map(|sound| heard.each_ref().map(|heard| ear.likeness(heard, &sound)))
-            .fold(0.0, f64::max)
-    };
-    let [yes, no] = [likeness(&speech.yes), likeness(&speech.no)];
-    (yes.max(no) >= ALIKE).then_some([yes as f32, no as f32])
 }
 
 /// A sentence of one word that is certainly this option.
@@ -178,8 +167,69 @@ mod tests {
         assert_eq!(answered("yes", &bowl), Some((Category::STORAGE, 3)));
         let lexicon = Lexicon::tabletop().unwrap();
         let listener = Listener::new(&lexicon).unwrap();
-        let no = reply("no", &bowl, &listener, &lexicon);
-        assert_eq!(no, Ok(Reply::Neither));
+        for text in ["yep", "Yeah!", "ok", "yes, please"] {
+            assert_eq!(
+                answered(text, &bowl),
+                Some((Category::STORAGE, 3)),
+                "{text}"
+            );
+        }
+        for text in ["no", "Nope.", "none of them"] {
+            let no = reply(text, &bowl, &listener, &lexicon);
+            assert_eq!(no, Ok(Reply::Neither), "{text}");
+        }
+        // One that names something else is no yes to it.
+        assert_eq!(
+            answered("yes, the drawer", &bowl),
+            Some((Category::STORAGE, 0))
+        );
+    }
+
+    #[test]
+    fn what_does_not_say_which_is_no_answer_and_forbids_nothing() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        let which = ask(Category::OBJECT, &[0, 1]);
+        let confirm = Question {
+            kind: Kind::Confirm,
+            ..which.clone()
+        };
+        for text in [
+            "I don't know",
+            "I don\u{2019}t know.",
+            "both",
+            "maybe",
+            "not sure",
+            "you choose",
+            "hmm",
+        ] {
+            for question in [&which, &confirm] {
+                let unclear = reply(text, question, &listener, &lexicon);
+                assert_eq!(unclear, Ok(Reply::Unclear), "{text}");
+            }
+        }
+        for text in ["yes", "yep", "ok"] {
+            assert_eq!(
+                reply(text, &which, &listener, &lexicon),
+                Ok(Reply::Unclear),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn czech_answers_too() {
+        let text = include_str!("../data/language/tabletop-cs.toml");
+        let lexicon = Lexicon::parse("tabletop-cs.toml", text).unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        let (one, two) = (ask(Category::OBJECT, &[0]), ask(Category::OBJECT, &[0, 1]));
+        let answer = |text, question| reply(text, question, &listener, &lexicon).unwrap();
+        assert!(matches!(answer("Ano, prosím", &one), Reply::Answer(_)));
+        assert_eq!(answer("ne", &one), Reply::Neither);
+        for text in ["nevím", "Je to jedno.", "obojí", "ano"] {
+            assert_eq!(answer(text, &two), Reply::Unclear, "{text}");
+        }
+        assert!(matches!(answer("hrnek", &two), Reply::Answer(_)));
     }
 
     #[test]

@@ -43,7 +43,11 @@ pub fn of(text: &str, utterance: Utterance) -> Understood {
             Why::Talk => "commands nothing",
             Why::Corrected => "was taken back",
         };
-        format!("\"{part}\" {why}")
+        let request = aside.request.clone().and_then(|span| text.get(span));
+        match request {
+            None => format!("\"{part}\" {why}"),
+            Some(request) => format!("\"{part}\" {why}: to have it done, say \"{request}\""),
+        }
     });
     let all: Vec<_> = parts.collect();
     Understood::Nothing(if all.is_empty() {

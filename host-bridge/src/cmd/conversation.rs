@@ -1,5 +1,6 @@
 //! What a person types and speaks, given to a session; and how it ended.
 
+mod answer;
 mod ending;
 mod input;
 
@@ -8,7 +9,6 @@ use std::collections::VecDeque;
 pub use self::ending::Ending;
 use self::input::{BETWEEN, Input};
 use super::printer::Printer;
-use crate::answering::{Reply, reply};
 use crate::explain;
 use crate::language::{LanguageError, Listener, Spoken, text_of};
 use crate::sensor::Sensors;
@@ -25,6 +25,8 @@ pub struct Conversation<'a> {
     listener: &'a Listener<'a>,
     printer: Printer,
     waiting: VecDeque<Input>,
+    /// The last question that was asked, in words.
+    asked: Option<String>,
     last: Ending,
     quits: bool,
     /// What observes what is said and shown; without any it is observed as it was typed.
@@ -40,6 +42,7 @@ impl<'a> Conversation<'a> {
             listener,
             printer,
             waiting: VecDeque::new(),
+            asked: None,
             last: Ending::Done,
             quits: false,
             sensors: None,
@@ -225,25 +228,7 @@ impl<'a> Conversation<'a> {
     pub fn take(&mut self, session: &mut Session<'_>, said: Option<&str>, shown: Option<&str>) {
         self.last = Ending::NotDone;
         if let (Some(text), None, Some(question)) = (said, shown, session.question().cloned()) {
-            self.printer.answered(text);
-            match reply(text, &question, self.listener, session.lexicon()) {
-                Err(error) => self.printer.not_understood(&error, error.remedy()),
-                Ok(Reply::Answer(sentence)) => {
-                    if let Err(error) = session.answer(*sentence) {
-                        self.printer.not_understood(&error, AGAIN.into());
-                    }
-                }
-                Ok(Reply::YesOrNo(likelihoods)) => {
-                    if let Err(error) = session.yes_or_no(likelihoods) {
-                        self.printer.not_understood(&error, AGAIN.into());
-                    }
-                }
-                Ok(Reply::Neither) => {
-                    session.stop();
-                    self.printer.nothing("the question is withdrawn");
-                }
-                Ok(Reply::Command(understood)) => self.give(session, understood, None),
-            }
+            self.answer(session, text, &question);
             return;
         }
         self.printer.heard(said, shown);

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::files::Files;
 use super::profile::Choice;
-use super::{advice, paint};
+use super::{advice, json, paint};
 use crate::deciding::{decide, heard};
 use crate::explain::reasons::Reasons;
 use crate::explain::{self, Advice};
@@ -18,6 +18,7 @@ use crate::report::{self, DecisionReport};
 use crate::scene::Tabletop;
 use crate::sensor::{Noise, Sensors};
 use crate::sensor_model::SensorModel;
+use crate::session::Order;
 use crate::showing::showing;
 use crate::understanding::{self, Understood, is_stop};
 use crate::vocabulary::Lexicon;
@@ -82,6 +83,13 @@ impl Decide {
             Some(text) => Some(showing(text, &lexicon).map_err(|e| advice(&e, e.remedy()))?),
             None => None,
         };
+        if let Some(order) = self.say.as_deref().and_then(Order::of) {
+            let why = format!(
+                "it tells the robot itself to {order}, and nothing is decided; a session has a robot"
+            );
+            self.print_nothing(&why);
+            return Ok(());
+        }
         let said = match &self.say {
             None => vec![None],
             Some(text) => match Self::understand(text, &listener)? {
@@ -147,7 +155,7 @@ impl Decide {
             .explain
             .then(|| Reasons::of_trace(&trace, &profile, lexicon));
         if self.json {
-            print_json(&Line {
+            json::print(&Line {
                 decision: report::decision(&decision, heard.as_ref(), scene, lexicon),
                 why,
             });
@@ -162,7 +170,7 @@ impl Decide {
 
     fn print_nothing(&self, why: &str) {
         if self.json {
-            print_json(&serde_json::json!({ "outcome": "nothing", "because": why }));
+            json::print(&serde_json::json!({ "outcome": "nothing", "because": why }));
         } else {
             anstream::println!("{}  {why}", paint::ask("nothing"));
         }
@@ -171,12 +179,6 @@ impl Decide {
 
 fn refused(Advice { what, remedy }: Advice) -> miette::Report {
     advice(what, remedy)
-}
-
-fn print_json(value: &impl Serialize) {
-    if let Ok(line) = serde_json::to_string(value) {
-        anstream::println!("{line}");
-    }
 }
 
 fn stop_now(action: u8) -> Decision {

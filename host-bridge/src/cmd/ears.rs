@@ -4,6 +4,7 @@ use clap::Args;
 use miette::Result;
 
 use super::advice;
+use super::printer::Printer;
 use crate::language::Listener;
 use crate::language::pack::Pack;
 use crate::language::speech::pocketsphinx::MODEL;
@@ -35,14 +36,21 @@ impl Speech {
     }
 
     /// Begins to listen, if speech was asked for.
-    pub fn open(&self, lexicon: &Lexicon, listener: &mut Listener<'_>) -> Result<Option<Ears>> {
+    pub fn open(
+        &self,
+        lexicon: &Lexicon,
+        listener: &mut Listener<'_>,
+        printer: Printer,
+    ) -> Result<Option<Ears>> {
         let Some(source) = &self.speech else {
             return Ok(None);
         };
         listener.risk = self.speech_risk;
         let recogniser = || {
             let pack = Pack::of(lexicon.language())?;
-            Recogniser::open(self.recogniser, lexicon, &pack, &self.speech_model)
+            let opened = Recogniser::open(self.recogniser, lexicon, &pack, &self.speech_model)?;
+            printer.listens(opened.name());
+            Ok(opened)
         };
         let ears = Ears::open(source, recogniser).map_err(|e| advice(&e, e.remedy()))?;
         Ok(Some(ears))

@@ -8,6 +8,7 @@ mod files;
 pub mod gestures;
 pub mod hand;
 mod interrupts;
+mod json;
 mod lines;
 mod log;
 mod paint;

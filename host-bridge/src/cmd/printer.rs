@@ -1,11 +1,12 @@
 //! What happens in a session, on the terminal or as JSON lines.
 
+mod asking;
 mod robot;
 
 use deictic_core::decide::Outcome;
 use serde_json::{Value, json};
 
-use super::paint;
+use super::{json, paint};
 use crate::explain::{self, Advice};
 use crate::language::Spoken;
 use crate::link::Address;
@@ -41,7 +42,7 @@ impl Printer {
     /// One JSON object.
     pub fn object(self, value: &Value) {
         if self.json {
-            anstream::println!("{value}");
+            json::print(value);
         }
     }
 

@@ -29,7 +29,7 @@ use crate::link::Address;
 use crate::robot::{self, address::reach};
 use crate::scene::SceneLine;
 use crate::sensor::{Noise, Sensors};
-use crate::session::Session;
+use crate::session::{Order, Session};
 
 /// How long one turn waits for the unit: a typed stop is at the robot within this.
 const TURN: Duration = Duration::from_millis(10);
@@ -119,7 +119,11 @@ impl Run {
         let (lexicon, table) = self.files.read()?;
         let mut listener = Listener::new(&lexicon).map_err(|e| advice(&e, e.remedy()))?;
         listener.uncertainty = self.choice.uncertainty();
-        let mut ears = self.speech.open(&lexicon, &mut listener)?;
+        let printer = Printer {
+            json: self.json,
+            full: true,
+        };
+        let mut ears = self.speech.open(&lexicon, &mut listener, printer)?;
         let configuration = Configuration {
             profile: self.choice.profile(),
             window: Micros::from_millis(self.window()),
@@ -135,10 +139,6 @@ impl Run {
         // A unit that cannot be told is lost, which the session tells.
         let _ = session.set_hand(setup);
         let interrupts = interrupts()?;
-        let printer = Printer {
-            json: self.json,
-            full: true,
-        };
         let mut pictures = self.draw.open()?;
         let mut log = Log::open(self.log.as_deref())?;
         printer.greet(&self.board, &session);
@@ -149,7 +149,10 @@ impl Run {
         let mut lines = None;
         if self.say.is_some() || self.show.is_some() {
             let (say, show) = (self.say.as_deref(), self.show.as_deref());
-            conversation.take(&mut session, say, show);
+            match say.filter(|text| show.is_none() && Order::of(text).is_some()) {
+                Some(order) => conversation.line(&mut session, order.as_bytes()),
+                None => conversation.take(&mut session, say, show),
+            }
         } else {
             lines = Some(Lines::of_stdin());
         }

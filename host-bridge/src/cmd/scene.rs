@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use serde_json::Value;
 
-use super::advice;
+use super::{advice, json};
 use crate::scene::feed;
 use crate::scene::line::Thing;
 use crate::scene::{Likelihood, SceneLine};
@@ -120,7 +120,7 @@ impl Scene {
         }
         let things = answer["things"].as_array();
         for thing in things.ok_or_else(|| miette!("the answer names no things"))? {
-            anstream::println!("{thing}");
+            json::print(thing);
         }
         Ok(())
     }

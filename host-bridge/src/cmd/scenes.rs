@@ -5,6 +5,7 @@ use miette::{IntoDiagnostic, Result, WrapErr};
 use serde_json::json;
 
 use super::files::Files;
+use super::json;
 use super::printer::Printer;
 use crate::diagnose::Problem;
 use crate::scene::feed::Feed;
@@ -67,7 +68,7 @@ impl Scenes {
                     json!({ "error": problem.to_string(), "remedy": problem.remedy() })
                 }
             };
-            request.answer(answer.to_string());
+            request.answer(json::tidy(answer).to_string());
         }
     }
 

@@ -6,7 +6,7 @@ use miette::Result;
 use serde_json::{Value, json};
 
 use super::files::Files;
-use super::{advice, paint};
+use super::{advice, json, paint};
 use crate::language::{Command, Listener};
 use crate::understanding::{self, Understood};
 use crate::vocabulary::Lexicon;
@@ -54,7 +54,7 @@ impl Understand {
         if self.json {
             let commands = commands.iter().map(|c| self.object(c, &lexicon));
             let commands: Vec<_> = commands.collect();
-            anstream::println!("{}", json!({ "commands": commands, "nothing": nothing }));
+            json::print(&json!({ "commands": commands, "nothing": nothing }));
             return Ok(());
         }
         if let Some(why) = nothing {

@@ -9,7 +9,7 @@ mod shown;
 
 pub use errors::{profile_error, scene_error, sentence_error, vocabulary_error};
 pub use faults::{distrust, fault, loss, sensor_error};
-pub use question::{because, intent, question};
+pub use question::{amount, because, intent, question};
 pub use shown::sentence;
 
 /// An error in words.

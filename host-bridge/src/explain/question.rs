@@ -24,7 +24,8 @@ pub fn intent(intent: &large::Intent, lexicon: &Lexicon) -> String {
 }
 
 /// A quantity with its unit: centimetres, degrees, or the bare number.
-fn amount(category: Category, quantity: f32) -> String {
+#[must_use]
+pub fn amount(category: Category, quantity: f32) -> String {
     let tidy = |x: f32| f64::from((x * 100.0).round()) / 100.0;
     match category {
         Category::DISTANCE => format!("{} cm", tidy(quantity * 100.0)),
@@ -140,13 +141,35 @@ pub fn because(
     for (k, name) in lexicon.features().iter().enumerate() {
         let feature = entity.features.get(k).copied().unwrap_or(0.0);
         if requirement.wanted.contains(k) && feature < FEASIBLE {
-            reasons.push(format!("it is not {name}"));
+            reasons.push(said(name, false));
         }
         if requirement.unwanted.contains(k) && feature > 1.0 - FEASIBLE {
-            reasons.push(format!("it is {name}"));
+            reasons.push(said(name, true));
         }
     }
     reasons
+}
+
+/// That a thing has a feature, or has not, as people say it; the paper's features have words of their own.
+fn said(feature: &str, has: bool) -> String {
+    let text = match (feature, has) {
+        ("full-liquid", true) => "it is full",
+        ("full-liquid", false) => "it is empty",
+        ("full-stack", true) => "something stands on it",
+        ("full-stack", false) => "nothing stands on it",
+        ("full-container", true) => "no more goes into it",
+        ("liquid-container", false) => "nothing can be poured into it",
+        ("container", false) => "nothing can be put into it",
+        ("stackable", false) => "nothing can be put on it",
+        ("pickable", false) => "it cannot be picked up",
+        ("pushable", false) => "it cannot be pushed",
+        ("reachable", false) => "it is out of reach",
+        (feature, has) => {
+            let not = if has { "" } else { "not " };
+            return format!("it is {not}{}", feature.replace(['-', '_'], " "));
+        }
+    };
+    text.to_owned()
 }
 
 /// "a, b or c"; `None` of nothing.
@@ -277,8 +300,19 @@ mod tests {
         let (best, scene) = (Some(&release), table.scene());
         assert_eq!(
             question(&asked, best, heard.as_ref(), scene, &lexicon),
-            "The cleaner does not do for pick: it is not reachable. Which object for pick: can or cup?"
+            "The cleaner does not do for pick: it is out of reach. Which object for pick: can or cup?"
         );
+    }
+
+    #[test]
+    fn features_are_said_as_people_say_them() {
+        for feature in Lexicon::tabletop().unwrap().features() {
+            for has in [true, false] {
+                assert!(!said(feature, has).contains('-'), "{feature}");
+            }
+        }
+        assert_eq!(said("full-liquid", false), "it is empty");
+        assert_eq!(said("very-hot", true), "it is very hot");
     }
 
     #[test]

@@ -174,3 +174,14 @@ fn mood(clause: &Clause, polite: bool) -> Mood {
     }
     Mood::Command
 }
+
+/// What a question whether something can be done would be as a command: its bytes in the text.
+pub(super) fn request(pieces: &[Piece], table: &Table) -> Option<std::ops::Range<usize>> {
+    let begins = pieces.iter().position(|p| !is_empty(p))?;
+    let (first, rest) = pieces.get(begins..)?.split_first()?;
+    let rest = rest.get(rest.iter().position(|p| !is_empty(p))?..)?;
+    let asked = first.is(Role::RequestQuestion) && rest.first().is_some_and(is_verb);
+    let (begin, end) = (rest.first()?, rest.last()?);
+    let commands = clauses(rest, table).iter().all(|c| c.mood == Mood::Command);
+    (asked && commands).then_some(begin.span.start..end.span.end)
+}

@@ -1,7 +1,7 @@
 //! Clauses to a queue of commands: corrections replace, prohibitions and questions set aside, "it"
 //! finds what was spoken of, "before" and "after" put in order.
 
-use super::clause::{Clause, Link, Mood};
+use super::clause::{Clause, Link, Mood, request};
 use super::draft::{Draft, Slot};
 use super::drafter::drafts;
 use super::error::LanguageError;
@@ -33,6 +33,8 @@ pub struct SetAside {
     pub why: Why,
     /// Its bytes in the text.
     pub span: std::ops::Range<usize>,
+    /// Of a question whether something can be done, the bytes of what it would be: "can you pick the cup?".
+    pub request: Option<std::ops::Range<usize>>,
 }
 
 /// A draft with its place in the text.
@@ -127,7 +129,10 @@ impl Composer<'_> {
                 self.mention(&draft);
             }
         }
-        self.plan.aside.push(SetAside { why, span });
+        let request = (why == Why::Question)
+            .then(|| request(&clause.pieces, self.table))
+            .flatten();
+        self.plan.aside.push(SetAside { why, span, request });
         Ok(())
     }
 
@@ -145,6 +150,7 @@ impl Composer<'_> {
                 self.plan.aside.push(SetAside {
                     why: Why::Corrected,
                     span: gone.span,
+                    request: None,
                 });
             }
         }
@@ -181,6 +187,7 @@ impl Composer<'_> {
                 self.plan.aside.push(SetAside {
                     why: Why::Talk,
                     span,
+                    request: None,
                 });
             }
             return Ok(());
@@ -239,6 +246,7 @@ impl Composer<'_> {
                 self.plan.aside.push(SetAside {
                     why: Why::Corrected,
                     span: last.span.clone(),
+                    request: None,
                 });
                 last.draft.amend(&new.draft);
                 last.draft.prune(self.lexicon);

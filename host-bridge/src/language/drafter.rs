@@ -6,7 +6,7 @@ use deictic_core::category::Category;
 use super::draft::{Draft, Heard, Slot};
 use super::error::LanguageError;
 use super::pack::Role;
-use super::read::{Piece, What};
+use super::read::{Piece, What, no_unit};
 use super::split::joined;
 use super::table::Table;
 use crate::vocabulary::Lexicon;
@@ -271,9 +271,7 @@ impl Drafter<'_> {
             Some(kind) if counts || self.has_signature(Category::AMOUNT) => {
                 self.quantity(piece, kind, value)
             }
-            _ => Err(LanguageError::NoUnit {
-                word: piece.words.clone(),
-            }),
+            _ => Err(no_unit(piece, rest, self.table)),
         }
     }
 

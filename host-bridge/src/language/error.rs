@@ -36,7 +36,10 @@ pub enum LanguageError {
         nearest: Vec<String>,
     },
     /// A quantity, number or place that the vocabulary has no category for.
-    #[error("\"{word}\" is a {category}, which this vocabulary does not have")]
+    #[error(
+        "\"{word}\" is {} {category}, which this vocabulary does not have",
+        article(category)
+    )]
     NoSuchCategory {
         /// As it was said.
         word: String,
@@ -44,7 +47,7 @@ pub enum LanguageError {
         category: String,
     },
     /// A thing named where only other things can go.
-    #[error("\"{word}\" is not a {category}")]
+    #[error("\"{word}\" is not {} {category}", article(category))]
     WrongPlace {
         /// As it was said.
         word: String,
@@ -58,6 +61,14 @@ pub enum LanguageError {
     NoUnit {
         /// As it was said.
         word: String,
+    },
+    /// A number with a word behind it that is no unit.
+    #[error("\"{unit}\" is no unit that is known here")]
+    UnknownUnit {
+        /// What stands behind the number.
+        unit: String,
+        /// The units that are known, one word for each.
+        known: Vec<String>,
     },
     /// A number that is not finite, or larger than anything on a table.
     #[error("\"{word}\" is out of range")]
@@ -118,6 +129,7 @@ impl LanguageError {
             }
             Self::WrongPlace { known, .. } => format!("known here: {}", list(known)),
             Self::NoUnit { .. } => "say the unit too, as in \"5 cm\" or \"30 degrees\"".into(),
+            Self::UnknownUnit { known, .. } => format!("known units: {}", known.join(", ")),
             Self::BadQuantity { .. } => "give a number below a million".into(),
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
             Self::Unclear { .. } => "say it again".into(),
@@ -134,6 +146,14 @@ impl LanguageError {
 impl Problem for LanguageError {
     fn remedy(&self) -> String {
         self.remedy()
+    }
+}
+
+/// "an angle", "a distance".
+fn article(noun: &str) -> &'static str {
+    match noun.chars().next() {
+        Some('a' | 'e' | 'i' | 'o' | 'u') => "an",
+        _ => "a",
     }
 }
 

@@ -2,11 +2,14 @@
 //!
 //! English (`en`) and Czech (`cs`) are built in; [`Pack::read`] takes any other.
 
+mod parts;
+
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
 use super::error::LanguageError;
+pub use parts::{Answer, Endings, Joints, OptionWords, Quantity, Speech, Tags, Unit};
 
 /// What a grammar word does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
@@ -72,115 +75,6 @@ pub enum Role {
     Mention,
 }
 
-/// A word for a number with a unit.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Unit {
-    /// Name of the category of its quantities.
-    pub category: String,
-    /// How much one is: metres, radians or pieces.
-    pub factor: f32,
-    /// What people call it.
-    pub words: Vec<String>,
-}
-
-/// A quantity that needs no number.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Quantity {
-    /// Name of its category.
-    pub category: String,
-    /// How much it is: metres, radians or pieces.
-    pub value: f32,
-    /// What people call it.
-    pub words: Vec<String>,
-}
-
-/// Words for an option that the vocabulary gives no words for.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct OptionWords {
-    /// Name of its category.
-    pub category: String,
-    /// The option's name in the vocabulary.
-    pub name: String,
-    /// What people call it.
-    pub words: Vec<String>,
-}
-
-/// Endings that tell forms of a word.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Endings {
-    /// Of names of things: "cups" is "cup".
-    #[serde(default)]
-    pub name: Vec<String>,
-    /// Of verbs that are no commands: "picking", "picked".
-    #[serde(default)]
-    pub verb: Vec<String>,
-    /// Of verbs that are commands: the polite plural of Czech.
-    #[serde(default)]
-    pub command: Vec<String>,
-    /// Ends of stems that take each other's place: "hrnek", "hrnku".
-    #[serde(default)]
-    pub alternate: Vec<[String; 2]>,
-    /// What negates a verb in front of it.
-    #[serde(default)]
-    pub negative: Vec<String>,
-    /// Letters of a word that are never taken for an ending.
-    #[serde(default)]
-    pub keep: usize,
-}
-
-/// Words inside numbers.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Joints {
-    /// Between a whole number and a fraction, between hundreds and ones.
-    #[serde(default)]
-    pub and: Vec<String>,
-    /// Before decimals.
-    #[serde(default)]
-    pub point: Vec<String>,
-    /// Before a negative number.
-    #[serde(default)]
-    pub minus: Vec<String>,
-}
-
-/// Ends of a sentence that say nothing.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tags {
-    /// As they are.
-    #[serde(default)]
-    pub plain: Vec<String>,
-}
-
-/// What a recogniser that needs a grammar listens for, besides the vocabulary's words.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Speech {
-    /// Around a sentence.
-    pub polite: Vec<String>,
-    /// In front of what is not to be done.
-    pub not: Vec<String>,
-    /// Before names.
-    pub determiner: Vec<String>,
-    /// In place of an object's name.
-    pub pointed: Vec<String>,
-    /// Before a storage.
-    pub preposition: Vec<String>,
-    /// In place of a preposition and a storage.
-    pub place: Vec<String>,
-    /// The answer that it is so.
-    pub yes: Vec<String>,
-    /// The answer that it is not so.
-    pub no: Vec<String>,
-    /// What is told the robot itself: to hold, to go on, to go home, that a fault was seen to.
-    #[serde(default)]
-    pub order: Vec<String>,
-}
-
 /// The grammar words of a language.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -218,6 +112,9 @@ pub struct Pack {
     /// Words for options.
     #[serde(default)]
     pub option: Vec<OptionWords>,
+    /// Answers that name nothing.
+    #[serde(default)]
+    pub answer: Answer,
     /// For recognisers; without it the language can be typed only.
     pub speech: Option<Speech>,
 }
@@ -258,12 +155,10 @@ impl Pack {
     pub fn read(toml: &str) -> Result<Self, LanguageError> {
         let bad = |why: String| LanguageError::BadPack { why };
         let pack: Self = toml::from_str(toml).map_err(|e| bad(e.to_string()))?;
-        let values = pack.unit.iter().map(|u| u.factor);
-        let values = values.chain(pack.quantity.iter().map(|q| q.value));
-        if !values
-            .chain(pack.numbers.values().copied())
-            .all(f32::is_finite)
-        {
+        let values = pack.quantity.iter().map(|q| q.value);
+        let mut values = values.chain(pack.numbers.values().copied());
+        let sound = values.all(f32::is_finite) && pack.unit.iter().all(|u| u.factor.is_finite());
+        if !sound {
             return Err(bad("a number that is not finite".to_owned()));
         }
         Ok(pack)

@@ -57,7 +57,7 @@ pub fn measure(
     } else {
         number_end
     };
-    let measured = unit.map_or(value, |(_, factor)| value * f64::from(factor));
+    let measured = unit.map_or(value, |(_, factor)| value * factor);
     if !(measured.abs() <= LARGEST && value.abs() <= LARGEST) {
         let said = tokens.get(..used).unwrap_or_default();
         let said: Vec<_> = said.iter().map(|t| t.text.as_str()).collect();
@@ -72,7 +72,7 @@ pub fn measure(
     }))
 }
 
-fn unit_of(meaning: &Meaning) -> Option<(usize, f32)> {
+fn unit_of(meaning: &Meaning) -> Option<(usize, f64)> {
     match meaning {
         Meaning::Unit(kind, factor) => Some((*kind, *factor)),
         _ => None,

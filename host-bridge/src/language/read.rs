@@ -165,3 +165,20 @@ fn word(rest: &[Token], table: &Table) -> Result<(What, usize), LanguageError> {
         },
     })
 }
+
+/// What is wrong with a number that says nothing by itself.
+pub fn no_unit(piece: &Piece, rest: &[Piece], table: &Table) -> LanguageError {
+    let word = piece.words.clone();
+    match rest.first().filter(|next| next.what == What::Unknown) {
+        None => LanguageError::NoUnit { word },
+        Some(next) => {
+            let units = table.pack().unit.iter();
+            LanguageError::UnknownUnit {
+                unit: next.words.clone(),
+                known: units
+                    .filter_map(|unit| unit.words.first().cloned())
+                    .collect(),
+            }
+        }
+    }
+}

@@ -22,7 +22,7 @@ pub enum Meaning {
     /// A grammar word.
     Role(Role),
     /// A unit: the place of its category's name in [`Table::kinds`], and how much one is.
-    Unit(usize, f32),
+    Unit(usize, f64),
     /// A quantity without number, likewise.
     Quantity(usize, f32),
     /// A number.

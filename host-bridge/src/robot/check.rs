@@ -8,6 +8,7 @@ use deictic_core::large::{Entity, Intent};
 use super::hold::Hold;
 use super::task::{Place, Task};
 use super::{Refusal, Skill, World};
+use crate::explain;
 
 /// How far the arm reaches from its base, in metres (Franka Emika Panda, data sheet).
 const REACH: f32 = 0.855;
@@ -170,18 +171,14 @@ fn quantity(intent: &Intent, category: Category) -> Result<Option<f32>, Refusal>
     let Some(quantity) = intent.parameter(category).and_then(|p| p.quantity) else {
         return Ok(None);
     };
-    let (most, shown) = if category == Category::ANGLE {
-        (
-            core::f32::consts::PI,
-            format!("{} degrees", quantity.to_degrees()),
-        )
-    } else {
-        (FARTHEST, format!("{quantity} m"))
+    let most = match category {
+        Category::ANGLE => core::f32::consts::PI,
+        _ => FARTHEST,
     };
-    if quantity.is_finite() && quantity > 0.0 && quantity <= most {
+    if quantity > 0.0 && quantity <= most {
         Ok(Some(quantity))
     } else {
-        Err(Refusal::TooFar(shown))
+        Err(Refusal::TooFar(explain::amount(category, quantity)))
     }
 }
 

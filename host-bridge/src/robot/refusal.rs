@@ -77,7 +77,7 @@ pub enum Refusal {
         remedy: &'static str,
     },
     /// A distance or angle that no motion has.
-    #[error("{0} is beyond what the arm does in one motion")]
+    #[error("the arm does not go {0} in one motion")]
     TooFar(String),
     /// It is held in the middle of another command.
     #[error("the robot is held")]
@@ -134,7 +134,7 @@ impl Refusal {
             Self::NothingHeld => "pick something first".into(),
             Self::InTheWay(thing) => format!("move the {thing} away first, or go another way"),
             Self::Arm { remedy, .. } => (*remedy).into(),
-            Self::TooFar(_) => "say it in smaller steps".into(),
+            Self::TooFar(_) => "say a figure above 0, and a long way in smaller steps".into(),
             Self::Held => "say \"resume\" or \"stop\" first".into(),
             Self::Idle => "say it while the robot moves".into(),
             Self::NotHeld => "say \"hold\" while the robot moves".into(),

@@ -23,10 +23,17 @@ impl MakeKey {
         make(&self.file)?;
         let path = fs::canonicalize(&self.file)?;
         println!(
-            "flash it: DEICTIC_KEY={} cargo run --release --features nucleo-g474re --bin nucleo-g474re",
+            "of a board, flash it: DEICTIC_KEY={} cargo run --release --features nucleo-g474re --bin nucleo-g474re",
             path.display()
         );
-        println!("use it:   deictic run --key {}", path.display());
+        println!(
+            "      and use it:      deictic run --key {}",
+            path.display()
+        );
+        println!(
+            "or of a robot: deictic robot-sim --key {0}, and deictic run --robot-key {0}",
+            path.display()
+        );
         Ok(())
     }
 }

@@ -18,6 +18,9 @@ pub enum Ending {
 impl Conversation<'_> {
     /// Keeps account of how commands end.
     pub fn hear(&mut self, happening: &Happening) {
+        if let Happening::Asked { text, .. } = happening {
+            self.asked = Some(text.clone());
+        }
         self.last = match happening {
             Happening::Robot(Event::Done(_)) => Ending::Done,
             Happening::Robot(Event::Stopped { .. } | Event::Failed { .. })

@@ -7,7 +7,7 @@ use deictic_core::gesture::shape::Shape;
 use deictic_core::protocol::hand::HandView;
 use serde_json::{Value, json};
 
-use crate::cmd::paint;
+use crate::cmd::{json, paint};
 use crate::hand::meaning::HandSetup;
 use crate::scene::Tabletop;
 use crate::vocabulary::Lexicon;
@@ -95,7 +95,7 @@ impl<'a> Screen<'a> {
                 "movement": object(&strokes), "pointed": object(&pointed),
                 "words": self.words(view),
             });
-            anstream::println!("{line}");
+            json::print(&line);
             return;
         }
         if !std::io::stdout().is_terminal() {

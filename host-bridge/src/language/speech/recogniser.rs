@@ -78,6 +78,15 @@ impl Recogniser {
         }
     }
 
+    /// Its name, as [`Kind`] is written.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Moonshine(_) => "moonshine",
+            Self::Pocketsphinx(_) => "pocketsphinx",
+        }
+    }
+
     /// What is said in one utterance, samples of [`super::sound::RATE`].
     ///
     /// # Errors

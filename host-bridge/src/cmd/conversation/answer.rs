@@ -1,0 +1,53 @@
+//! What a person answers to a question.
+
+use deictic_core::decide::Question;
+
+use super::{AGAIN, Conversation};
+use crate::answering::{Reply, reply};
+use crate::session::Session;
+use crate::understanding::Understood;
+
+impl Conversation<'_> {
+    /// Takes what was said while a question is open: its answer, a command of its own, or nothing that tells more, so
+    /// that the question is put again.
+    pub(super) fn answer(&mut self, session: &mut Session<'_>, text: &str, question: &Question) {
+        let reply = reply(text, question, self.listener, session.lexicon());
+        if let Ok(Reply::Command(command @ Understood::Commands(_))) = reply {
+            self.printer.instead(text);
+            self.give(session, command, None);
+            return;
+        }
+        self.printer.answered(text);
+        let told = match reply {
+            Ok(Reply::Answer(sentence)) => session.answer(*sentence),
+            Ok(Reply::YesOrNo(likelihoods)) => session.yes_or_no(likelihoods),
+            Ok(Reply::Neither) => {
+                session.stop();
+                self.printer.nothing("the question is withdrawn");
+                return;
+            }
+            Ok(Reply::Command(understood)) => {
+                self.give(session, understood, None);
+                return self.ask_again();
+            }
+            Ok(Reply::Unclear) => {
+                self.printer
+                    .nothing(&format!("\"{text}\" does not say which"));
+                return self.ask_again();
+            }
+            Err(error) => {
+                self.printer.not_understood(&error, error.remedy());
+                return self.ask_again();
+            }
+        };
+        if let Err(error) = told {
+            self.printer.not_understood(&error, AGAIN.into());
+        }
+    }
+
+    fn ask_again(&self) {
+        if let Some(text) = &self.asked {
+            self.printer.asks(text);
+        }
+    }
+}

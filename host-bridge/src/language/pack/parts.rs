@@ -1,0 +1,124 @@
+//! The tables of a language pack, apart from the roles of grammar words.
+
+use serde::Deserialize;
+
+/// A word for a number with a unit.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unit {
+    /// Name of the category of its quantities.
+    pub category: String,
+    /// How much one is: metres, radians or pieces.
+    pub factor: f64,
+    /// What people call it.
+    pub words: Vec<String>,
+}
+
+/// A quantity that needs no number.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity {
+    /// Name of its category.
+    pub category: String,
+    /// How much it is: metres, radians or pieces.
+    pub value: f32,
+    /// What people call it.
+    pub words: Vec<String>,
+}
+
+/// Words for an option that the vocabulary gives no words for.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OptionWords {
+    /// Name of its category.
+    pub category: String,
+    /// The option's name in the vocabulary.
+    pub name: String,
+    /// What people call it.
+    pub words: Vec<String>,
+}
+
+/// Endings that tell forms of a word.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Endings {
+    /// Of names of things: "cups" is "cup".
+    #[serde(default)]
+    pub name: Vec<String>,
+    /// Of verbs that are no commands: "picking", "picked".
+    #[serde(default)]
+    pub verb: Vec<String>,
+    /// Of verbs that are commands: the polite plural of Czech.
+    #[serde(default)]
+    pub command: Vec<String>,
+    /// Ends of stems that take each other's place: "hrnek", "hrnku".
+    #[serde(default)]
+    pub alternate: Vec<[String; 2]>,
+    /// What negates a verb in front of it.
+    #[serde(default)]
+    pub negative: Vec<String>,
+    /// Letters of a word that are never taken for an ending.
+    #[serde(default)]
+    pub keep: usize,
+}
+
+/// Words inside numbers.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Joints {
+    /// Between a whole number and a fraction, between hundreds and ones.
+    #[serde(default)]
+    pub and: Vec<String>,
+    /// Before decimals.
+    #[serde(default)]
+    pub point: Vec<String>,
+    /// Before a negative number.
+    #[serde(default)]
+    pub minus: Vec<String>,
+}
+
+/// Ends of a sentence that say nothing.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tags {
+    /// As they are.
+    #[serde(default)]
+    pub plain: Vec<String>,
+}
+
+/// What a recogniser that needs a grammar listens for, besides the vocabulary's words.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Speech {
+    /// Around a sentence.
+    pub polite: Vec<String>,
+    /// In front of what is not to be done.
+    pub not: Vec<String>,
+    /// Before names.
+    pub determiner: Vec<String>,
+    /// In place of an object's name.
+    pub pointed: Vec<String>,
+    /// Before a storage.
+    pub preposition: Vec<String>,
+    /// In place of a preposition and a storage.
+    pub place: Vec<String>,
+    /// The answer that it is so.
+    pub yes: Vec<String>,
+    /// The answer that it is not so.
+    pub no: Vec<String>,
+    /// What is told the robot itself: to hold, to go on, to go home, that a fault was seen to.
+    #[serde(default)]
+    pub order: Vec<String>,
+}
+
+/// Answers to a question that name nothing.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answer {
+    /// It is so.
+    pub yes: Vec<String>,
+    /// It is not so, or none of them.
+    pub no: Vec<String>,
+    /// The person does not know either, or does not care.
+    pub unsure: Vec<String>,
+}
