@@ -156,7 +156,7 @@ impl Problem for VocabularyProblem {
             Self::UnknownGesture { nearest, .. } => format!(
                 "did you mean \"{nearest}\"? A gesture of your own (`deictic gestures learn`) needs a name less like it"
             ),
-            Self::Reserved(_) => "take another: docs/hand.md lists them".into(),
+            Self::Reserved(_) => "take another: the README lists the shapes and movements".into(),
             Self::Refused(error) => explain::vocabulary_error(error).remedy,
         }
     }

@@ -42,9 +42,7 @@ pub enum SourceError {
     Broken(io::Error),
     /// A message is not of the expected form.
     #[error("message {number} is not of the expected form: {why}")]
-    #[diagnostic(help(
-        "the README's section on hand sensors shows the form; look at the program that writes it"
-    ))]
+    #[diagnostic(help("docs/hand.md says where the form is; look at the program that writes it"))]
     Form {
         /// Which message, counted from 1.
         number: u64,

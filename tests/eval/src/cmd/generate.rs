@@ -17,7 +17,8 @@ pub struct Generate {
     /// Folder to write vocab.json and the sets to
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Vocabulary in TOML [default: the paper's]
+    /// Vocabulary in the form of tests/eval/vocabularies/paper.toml, which also says by what chance things have
+    /// their features; not `deictic`'s form [default: the paper's]
     #[arg(long, value_name = "FILE")]
     vocabulary: Option<PathBuf>,
     /// Samples per set
@@ -43,7 +44,9 @@ enum Language {
 impl Generate {
     pub fn run(self) -> anyhow::Result<()> {
         let (mut catalogue, recipe) = match &self.vocabulary {
-            Some(file) => Catalogue::read_toml(file)?,
+            Some(file) => Catalogue::read_toml(file).context(
+                "a vocabulary of sets has the form of tests/eval/vocabularies/paper.toml, not that of `deictic`",
+            )?,
             None => Catalogue::papers(),
         };
         if matches!(self.language, Language::Phonetic) {
