@@ -1,17 +1,15 @@
 //! Numbers of any width packed into the bytes of a frame, lowest bit first.
 
-use super::wire::PAYLOAD;
-
 /// Appends numbers of any width, lowest bit first.
-pub(super) struct Writer {
-    pub(super) bytes: [u8; PAYLOAD],
+pub(super) struct Writer<const N: usize> {
+    pub(super) bytes: [u8; N],
     at: usize,
 }
 
-impl Writer {
+impl<const N: usize> Writer<N> {
     pub(super) const fn new() -> Self {
         Self {
-            bytes: [0; PAYLOAD],
+            bytes: [0; N],
             at: 0,
         }
     }
@@ -28,13 +26,13 @@ impl Writer {
 }
 
 /// Takes numbers of any width, lowest bit first; zeros beyond the end.
-pub(super) struct Reader<'a> {
-    bytes: &'a [u8; PAYLOAD],
+pub(super) struct Reader<'a, const N: usize> {
+    bytes: &'a [u8; N],
     at: usize,
 }
 
-impl<'a> Reader<'a> {
-    pub(super) const fn new(bytes: &'a [u8; PAYLOAD]) -> Self {
+impl<'a, const N: usize> Reader<'a, N> {
+    pub(super) const fn new(bytes: &'a [u8; N]) -> Self {
         Self { bytes, at: 0 }
     }
 

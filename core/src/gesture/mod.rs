@@ -25,6 +25,7 @@ pub mod shape;
 pub mod shape_table;
 pub mod stroke;
 pub mod stroke_table;
+pub mod template;
 pub mod tracking;
 pub mod vector;
 pub mod wire;

@@ -1,7 +1,7 @@
 //! Templates of the dynamic gestures that a unit knows without being taught, written by
 //! `deictic-eval gestures train` from movements of made-up people.
 
-use super::stroke::{Scale, Template};
+use super::template::{Scale, Template};
 
 /// How distances become probabilities.
 pub const SCALE: Scale = Scale {

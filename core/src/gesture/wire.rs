@@ -124,7 +124,8 @@ pub fn encode(sample: &Sample) -> Result<[u8; PAYLOAD], WireError> {
 #[inline(never)]
 pub fn decode(bytes: &[u8]) -> Result<Sample, WireError> {
     let length = || WireError::Length(u8::try_from(bytes.len()).unwrap_or(u8::MAX));
-    let mut input = Reader::new(bytes.try_into().map_err(|_| length())?);
+    let bytes: &[u8; PAYLOAD] = bytes.try_into().map_err(|_| length())?;
+    let mut input = Reader::new(bytes);
     let header = input.bits(8) as u8;
     if header & VERSION == 0 {
         return Err(WireError::Version(header));

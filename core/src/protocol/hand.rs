@@ -11,7 +11,7 @@ use crate::gesture::frame::Side;
 use crate::gesture::mapping::{Gesture, MappingError, STROKES};
 use crate::gesture::pointing::{Aim, Mount, MountError};
 use crate::gesture::shape::SHAPES;
-use crate::gesture::stroke::{Scale, Template};
+use crate::gesture::template::{Scale, Template};
 use crate::gesture::wire::PAYLOAD;
 
 /// Gestures that can stand for actions: all shapes but *none of these*, all strokes.

@@ -4,7 +4,8 @@ use heapless::Vec;
 
 use super::loading::in_order;
 use crate::gesture::mapping::STROKES;
-use crate::gesture::stroke::{Scale, Template, Templates};
+use crate::gesture::stroke::Templates;
+use crate::gesture::template::{Scale, Template};
 use crate::protocol::hand::{HandFault, LEARNED, TemplatesPart};
 use crate::protocol::message::{Fault, Loaded};
 

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use deictic_core::gesture::path::Stroke;
-use deictic_core::gesture::stroke::{Template, distance};
+use deictic_core::gesture::stroke::distance;
+use deictic_core::gesture::template::Template;
 use rayon::prelude::*;
 
 use super::fitting::ASSUMED;

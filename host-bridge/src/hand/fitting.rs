@@ -1,6 +1,6 @@
 //! How distances from examples become probabilities, found on people whom the examples are not from.
 
-use deictic_core::gesture::stroke::{PLAIN, Scale};
+use deictic_core::gesture::template::{PLAIN, Scale};
 use rayon::prelude::*;
 
 use super::examples::Examples;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use deictic_core::gesture::counters::SampleCounters;
 use deictic_core::gesture::movement::Movement;
 use deictic_core::gesture::path;
-use deictic_core::gesture::stroke::{Scale, Template};
+use deictic_core::gesture::template::{Scale, Template};
 use deictic_core::gesture::tracking::{Step, Tracking};
 use deictic_core::gesture::wire::Sample;
 use deictic_core::time::Micros;

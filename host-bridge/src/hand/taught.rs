@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use deictic_core::gesture::mapping::STROKES;
-use deictic_core::gesture::stroke::{Scale, Template, Templates};
+use deictic_core::gesture::stroke::Templates;
 use deictic_core::gesture::stroke_table::NAMES;
+use deictic_core::gesture::template::{Scale, Template};
 use deictic_core::protocol::hand::{LEARNED, TEMPLATES_PART, TemplatesPart};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

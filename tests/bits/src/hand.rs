@@ -13,7 +13,8 @@ use deictic_core::gesture::frame::{Finger, HandFrame};
 use deictic_core::gesture::line::{FRAMED, send};
 use deictic_core::gesture::mapping::{Gesture, STROKES};
 use deictic_core::gesture::path::{ROOM, Stroke};
-use deictic_core::gesture::stroke::{Template, Templates};
+use deictic_core::gesture::stroke::Templates;
+use deictic_core::gesture::template::Template;
 use deictic_core::gesture::wire::Sample;
 use deictic_core::protocol::hand::{LEARNED, Meaning, Meanings, TEMPLATES_PART, TemplatesPart};
 use deictic_core::protocol::message::{

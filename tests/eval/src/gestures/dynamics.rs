@@ -7,7 +7,8 @@ use std::path::Path;
 use anyhow::{Context, bail};
 use deictic::hand::learning::{GESTURES_AT_MOST, Learned, Performance, learn, stroke};
 use deictic::hand::movement::{GESTURES, Manner};
-use deictic_core::gesture::stroke::{Comparison, Scale, Templates};
+use deictic_core::gesture::stroke::{Comparison, Templates};
+use deictic_core::gesture::template::Scale;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -239,7 +240,7 @@ pub fn table(learned: &Learned) -> String {
     let mut text = format!(
         "//! Templates of the dynamic gestures that a unit knows without being taught, written by\n\
          //! `deictic-eval gestures train` from movements of made-up people.\n\n\
-         use super::stroke::{{Scale, Template}};\n\n\
+         use super::template::{{Scale, Template}};\n\n\
          /// How distances become probabilities.\n\
          pub const SCALE: Scale = Scale {{\n    shape: {shape:.4},\n    length: {length:.4},\n    \
          seconds: {seconds:.4},\n    reach: {reach:.4},\n}};\n\n\
