@@ -13,7 +13,8 @@ use deictic_core::gesture::shape::Shape;
 use deictic_core::gesture::stroke::Likely;
 use deictic_core::gesture::wire::{Sample, decode, encode};
 use deictic_core::protocol::hand::SampleBytes;
-use deictic_core::protocol::message::Heartbeat;
+use deictic_core::protocol::message::{Configuration, Heartbeat};
+use deictic_core::sentence::LANGUAGE;
 use deictic_core::time::Micros;
 use deictic_tests::emulated::{Emulated, has_image};
 use deictic_tests::gesturing::{OBJECTS, PICK, RATE, STOP, person, ready, separate, stroke};
@@ -146,6 +147,44 @@ fn samples_on_the_sensor_line_are_passed_on_when_they_are_asked_for() {
     table.0.say(&ToUnit::Relay(false));
     table.sense_all(first);
     assert_eq!(relayed(&mut table), []);
+}
+
+#[test]
+fn a_hand_that_is_seen_within_the_window_of_a_prohibition_is_held_back_to_its_end() {
+    // In the middle of the sentence, and long before its end or just before its beginning; windows much shorter than
+    // the sentence.
+    let samples = person(3, &put());
+    for at in [0, samples.len() / 2] {
+        let mut table = Table::new();
+        table.0.configure(Configuration {
+            expected: 0b1,
+            window: Micros::from_millis(if at == 0 { 1_000 } else { 1 }),
+            ..Configuration::DEFAULT
+        });
+        let (before, after) = samples.split_at(at);
+        table.sense_all(before);
+        table.0.say(&ToUnit::Forbid(LANGUAGE));
+        table.sense_all(after);
+        let heard = table.0.heard();
+        let decided = heard.iter().any(|m| matches!(m, ToHost::Decision(_)));
+        let withheld = heard.iter().filter_map(|m| match m {
+            ToHost::Withheld(withheld) => Some((withheld.modalities, withheld.confirms)),
+            _ => None,
+        });
+        assert_eq!(withheld.collect::<Vec<_>>(), [(0, true), (1, false)]);
+        assert!(!decided, "{heard:?}");
+        // What the hand says next is a command again.
+        table.wait(Micros::from_millis(1_500));
+        let mut later = samples.clone();
+        for sample in &mut later {
+            match sample {
+                Sample::Hand(frame) => frame.time += 20_000_000,
+                Sample::Nothing(time) => *time += 20_000_000,
+            }
+        }
+        table.sense_all(&later);
+        assert_eq!(all_executed(&table.decisions()), [expected()]);
+    }
 }
 
 /// What a unit says about hands and decisions.

@@ -5,6 +5,8 @@ use deictic_core::fuse::says_clearly;
 use deictic_core::large::Sentence;
 use deictic_core::profile::Profile;
 
+use crate::language::pack::Pack;
+use crate::language::token::fold;
 use crate::language::{LanguageError, Listener, Utterance, Why};
 use crate::vocabulary::Lexicon;
 
@@ -16,6 +18,52 @@ pub enum Understood {
     /// Nothing, for this reason: it forbade, asked or told something. A gesture shown with it is
     /// not to be acted upon either.
     Nothing(String),
+}
+
+/// What an utterance has to do with what is shown and what is being done when it comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bearing {
+    /// Nothing: it is a command of its own, or talk.
+    Apart,
+    /// It forbids it or takes it back: "don't", "no", "never mind".
+    Refuses,
+    /// It puts something else in the place of a part of it: "no, the cube".
+    Corrects,
+    /// It asks or tells something, or depends on something: what is shown with it is no command either.
+    Aside,
+}
+
+/// What an utterance that was made of `text` has to do with what is shown and what is being done.
+#[must_use]
+pub fn bearing(text: &str, utterance: &Utterance, lexicon: &Lexicon) -> Bearing {
+    let forbids = |why| matches!(why, Why::Negated | Why::Corrected);
+    let mut aside = utterance.aside.iter().map(|aside| aside.why);
+    match utterance.commands.first() {
+        Some(command) if command.corrects => Bearing::Corrects,
+        Some(_) if aside.any(|why| why == Why::Negated) => Bearing::Refuses,
+        Some(_) => Bearing::Apart,
+        // "No" and "never mind" leave nothing behind.
+        None if utterance.aside.is_empty() || aside.clone().any(forbids) => Bearing::Refuses,
+        None if aside.all(|why| why == Why::Talk) => match begins_with_no(text, lexicon) {
+            true => Bearing::Refuses,
+            false => Bearing::Apart,
+        },
+        None => Bearing::Aside,
+    }
+}
+
+/// "No, thanks".
+fn begins_with_no(text: &str, lexicon: &Lexicon) -> bool {
+    let pack = Pack::of(lexicon.language()).ok();
+    let speech = pack.and_then(|pack| pack.speech);
+    let first = text
+        .split(|c: char| !c.is_alphanumeric())
+        .find(|w| !w.is_empty());
+    let (Some(speech), Some(first)) = (speech, first) else {
+        return false;
+    };
+    let first = fold(first);
+    speech.no.iter().any(|no| fold(no) == first)
 }
 
 /// What a text asks for, over a vocabulary.
@@ -51,7 +99,7 @@ pub fn of(text: &str, utterance: Utterance) -> Understood {
     });
     let all: Vec<_> = parts.collect();
     Understood::Nothing(if all.is_empty() {
-        "there is no command in it".to_owned()
+        format!("\"{}\" commands nothing", text.trim())
     } else {
         all.join("; ")
     })
@@ -108,6 +156,45 @@ mod tests {
         }
         for text in ["", "pick the can", "stopper", "non-stick"] {
             assert!(!mentions_stop(text, &lexicon), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_refuses_and_corrects_is_told_from_what_does_not() {
+        let lexicon = Lexicon::tabletop().unwrap();
+        let listener = Listener::new(&lexicon).unwrap();
+        let of = |text| bearing(text, &listener.understand(text).unwrap(), &lexicon);
+        for text in [
+            "no",
+            "No!",
+            "don't",
+            "don't pick the cup",
+            "never mind",
+            "no, thanks",
+            "don't pick the cup, pick the can",
+            "not the cup",
+        ] {
+            assert_eq!(of(text), Bearing::Refuses, "{text}");
+        }
+        for text in ["no, the cube", "actually, the cube", "no, push the box"] {
+            assert_eq!(of(text), Bearing::Corrects, "{text}");
+        }
+        for text in [
+            "could you pick the cup?",
+            "what is that?",
+            "I picked the cup",
+        ] {
+            assert_eq!(of(text), Bearing::Aside, "{text}");
+        }
+        for text in [
+            "pick the cup",
+            "thanks",
+            "yes",
+            "ok",
+            "um",
+            "pick the cup, no, the can",
+        ] {
+            assert_eq!(of(text), Bearing::Apart, "{text}");
         }
     }
 

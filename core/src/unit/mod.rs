@@ -169,7 +169,7 @@ impl<
         if now.since(self.heard) >= HOST_LOST {
             self.open = false;
             self.moving = false;
-            self.pairing.clear();
+            self.pairing.forget();
             self.hand.forget();
             self.fault(Fault::HostLost);
             return;

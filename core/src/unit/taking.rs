@@ -71,6 +71,7 @@ impl<
                 self.hand.relays = *relays;
                 Ok(())
             }
+            ToUnit::Forbid(modality) => self.forbid(now, *modality),
         };
         if let Err(fault) = result {
             self.fault(fault);
@@ -82,7 +83,7 @@ impl<
         self.outbox.abandon();
         self.loading.clear();
         self.sensing.clear();
-        self.pairing.clear();
+        self.pairing.forget();
         self.hand.clear();
         self.configuration = Configuration::DEFAULT;
         self.moving = false;

@@ -105,6 +105,13 @@ fn hand_to_host() -> Vec<(&'static str, ToHost)> {
             ToHost::Sample(encode(&Sample::Nothing(5)).unwrap().into_iter().collect()),
         ),
         ("why-whole", ToHost::WhyWhole(whole)),
+        (
+            "withheld",
+            ToHost::Withheld(Withheld {
+                modalities: 0b1,
+                confirms: true,
+            }),
+        ),
     ]
 }
 

@@ -123,6 +123,7 @@ fn hand_to_unit() -> Vec<(&'static str, ToUnit)> {
         ("templates", ToUnit::Templates(templates)),
         ("ask-hand", ToUnit::AskHand),
         ("relay", ToUnit::Relay(true)),
+        ("forbid", ToUnit::Forbid(LANGUAGE)),
         (
             "prove",
             ToUnit::Prove(Proof {

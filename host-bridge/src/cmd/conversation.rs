@@ -1,30 +1,30 @@
 //! What a person types and speaks, given to a session; and how it ended.
 
 mod answer;
+mod arriving;
 mod ending;
 mod input;
 
 use std::collections::VecDeque;
 
 pub use self::ending::Ending;
-use self::input::{BETWEEN, Input};
+use self::input::{Input, Waiting, parts};
 use super::printer::Printer;
+use deictic_core::large::Sentence;
+
 use crate::explain;
-use crate::language::{LanguageError, Listener, Spoken, text_of};
+use crate::language::{LanguageError, Listener, Spoken, Utterance};
 use crate::sensor::Sensors;
 use crate::sensor_model::SensorModel;
 use crate::session::{Order, Session};
 use crate::showing::showing;
-use crate::understanding::{self, Understood, mentions_stop};
-
-/// A share of what may have been heard that is enough to stand still.
-const MAY_BE_STOP: f64 = 0.2;
+use crate::understanding::{self, Bearing, Understood, bearing};
 
 /// Takes what is typed and spoken to a session.
 pub struct Conversation<'a> {
     listener: &'a Listener<'a>,
     printer: Printer,
-    waiting: VecDeque<Input>,
+    waiting: VecDeque<Waiting>,
     /// The last question that was asked, in words.
     asked: Option<String>,
     last: Ending,
@@ -75,58 +75,6 @@ impl<'a> Conversation<'a> {
         self.sensors = None;
     }
 
-    /// Takes a typed line. One that says stop is carried out at once, others when what was typed
-    /// before is over.
-    pub fn line(&mut self, session: &mut Session<'_>, line: &[u8]) {
-        let text = match text_of(line) {
-            Ok(text) => text.trim(),
-            Err(error) => {
-                self.last = Ending::NotDone;
-                self.printer.not_understood(&error, error.remedy());
-                return;
-            }
-        };
-        if mentions_stop(text, session.lexicon()) {
-            self.drop_waiting();
-            session.stop();
-            self.typed(session, text);
-        } else if let Some(order @ (Order::Hold | Order::Resume | Order::Clear)) = Order::of(text) {
-            self.order(session, order);
-        } else if text == "cancel" {
-            self.printer
-                .nothing(&format!("{} typed lines are forgotten", self.waiting.len()));
-            self.waiting.clear();
-            session.cancel();
-        } else if !text.is_empty() {
-            self.waiting.push_back(Input::Line(text.to_owned()));
-        }
-    }
-
-    /// Takes an utterance that was heard. One that may have been stop makes the robot stand still at
-    /// once.
-    pub fn spoken(&mut self, session: &mut Session<'_>, spoken: Spoken) {
-        let lexicon = session.lexicon();
-        let alternatives = spoken.alternatives.iter();
-        let stop = alternatives.filter(|(text, _)| mentions_stop(text, lexicon));
-        if stop.map(|(_, share)| share).sum::<f64>() > MAY_BE_STOP {
-            self.drop_waiting();
-            session.stop();
-        }
-        let (order, share) = likeliest_order(&spoken);
-        // Standing still harms nobody, so what may have been hold is done at once.
-        let enough = match order {
-            Some(Order::Hold) => MAY_BE_STOP,
-            _ => 1.0 - self.listener.risk,
-        };
-        match order {
-            Some(order @ (Order::Hold | Order::Resume | Order::Clear)) if share >= enough => {
-                self.printer.spoken(&spoken);
-                self.order(session, order);
-            }
-            _ => self.waiting.push_back(Input::Spoken(spoken)),
-        }
-    }
-
     /// Tells the robot directly.
     fn order(&mut self, session: &mut Session<'_>, order: Order) {
         match session.order(order) {
@@ -136,15 +84,6 @@ impl<'a> Conversation<'a> {
                 self.printer.declined(order, &refusal);
             }
         }
-    }
-
-    fn drop_waiting(&mut self) {
-        let texts: Vec<_> = self
-            .waiting
-            .drain(..)
-            .map(|w| w.text().to_owned())
-            .collect();
-        self.printer.dropped(&texts);
     }
 
     /// Takes the next input when the session is ready for it: when nothing is going on, or when the
@@ -157,14 +96,24 @@ impl<'a> Conversation<'a> {
         if !session.unit().is_there() {
             return;
         }
-        let fits = |input: &Input| input.modality().is_some_and(|m| session.is_waiting_for(m));
+        let fits = |waiting: &Waiting| {
+            let modality = waiting.input.modality();
+            modality.is_some_and(|m| session.is_waiting_for(m))
+        };
         let ready = match session.is_idle() {
             true => Some(0),
             false => self.waiting.iter().position(fits),
         };
-        match ready.and_then(|at| self.waiting.remove(at)) {
+        let next = ready.and_then(|at| self.waiting.remove(at));
+        match next.map(|waiting| waiting.input) {
             Some(Input::Line(text)) => self.typed(session, &text),
             Some(Input::Spoken(spoken)) => self.heard(session, &spoken),
+            Some(Input::Corrected { text, sentence }) => {
+                self.last = Ending::NotDone;
+                let meant = explain::sentence(&sentence, session.lexicon());
+                self.printer.corrected(&text, &meant);
+                self.give(session, vec![*sentence], None);
+            }
             None => {}
         }
     }
@@ -200,16 +149,17 @@ impl<'a> Conversation<'a> {
         self.last = Ending::NotDone;
         self.printer.spoken(spoken);
         match self.listener.hear(spoken) {
-            Ok(utterance) => self.give(session, understanding::of(text, utterance), None),
-            Err(error) => self.printer.not_understood(&error, error.remedy()),
+            Ok(utterance) => {
+                if let Some(commands) = self.commands(session, text, utterance) {
+                    self.give(session, commands, None);
+                }
+            }
+            Err(error) => self.not_understood(session, &error),
         }
     }
 
     fn typed(&mut self, session: &mut Session<'_>, text: &str) {
-        let (said, shown) = match text.split_once(BETWEEN) {
-            None => (text.trim(), ""),
-            Some((said, shown)) => (said.trim(), shown.trim()),
-        };
+        let (said, shown) = parts(text);
         match said {
             "quit" | "exit" => self.quit(),
             "help" | "?" => self.printer.help(),
@@ -240,33 +190,41 @@ impl<'a> Conversation<'a> {
             Some(Ok(sentence)) => Some(sentence),
             None => None,
         };
-        let understood = match said {
-            None => Understood::Commands(Vec::new()),
-            Some(text) => match self.listener.understand(text) {
-                Ok(utterance) => understanding::of(text, utterance),
-                Err(error) => {
-                    self.printer.not_understood(&error, error.remedy());
-                    return;
-                }
-            },
+        let commands = match said.map(|text| (text, self.listener.understand(text))) {
+            None => Some(Vec::new()),
+            Some((text, Ok(utterance))) => self.commands(session, text, utterance),
+            Some((_, Err(error))) => {
+                self.not_understood(session, &error);
+                None
+            }
         };
-        self.give(session, understood, shown);
+        if let Some(commands) = commands {
+            self.give(session, commands, shown);
+        }
+    }
+
+    /// The sentences of an utterance; `None`, and why, of one that commands nothing.
+    fn commands(
+        &mut self,
+        session: &mut Session<'_>,
+        text: &str,
+        utterance: Utterance,
+    ) -> Option<Vec<Sentence>> {
+        let bearing = bearing(text, &utterance, session.lexicon());
+        match understanding::of(text, utterance) {
+            Understood::Commands(commands) => Some(commands),
+            Understood::Nothing(why) => {
+                self.printer.nothing(&why);
+                if bearing != Bearing::Apart {
+                    self.forbid(session);
+                }
+                None
+            }
+        }
     }
 
     /// Gives sentences to the unit; what is shown belongs to the first that is said.
-    fn give(
-        &mut self,
-        session: &mut Session<'_>,
-        understood: Understood,
-        shown: Option<deictic_core::large::Sentence>,
-    ) {
-        let said = match understood {
-            Understood::Nothing(why) => {
-                self.printer.nothing(&why);
-                return;
-            }
-            Understood::Commands(sentences) => sentences,
-        };
+    fn give(&mut self, session: &mut Session<'_>, said: Vec<Sentence>, shown: Option<Sentence>) {
         let observed: Result<Vec<_>, _> = match &mut self.sensors {
             None => Ok(shown.iter().chain(&said).cloned().collect()),
             Some(sensors) => {

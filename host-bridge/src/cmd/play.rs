@@ -208,7 +208,8 @@ fn play(
                 _ => {}
             }
         }
-        if !session.is_idle() || session.is_showing() || hand.is_some() {
+        // What comes next is not to be taken for a part of what was forbidden.
+        if !session.is_idle() || session.is_showing() || hand.is_some() || session.forbids() {
             continue;
         }
         let asked = session.question().is_some();

@@ -1,6 +1,7 @@
 //! What happens in a session, on the terminal or as JSON lines.
 
 mod asking;
+mod forbidden;
 mod robot;
 
 use deictic_core::decide::Outcome;
@@ -157,16 +158,6 @@ impl Printer {
         }));
     }
 
-    /// What is not taken any more, as a stop was given.
-    pub fn dropped(self, texts: &[String]) {
-        for text in texts {
-            self.line("dropped", format!("\"{text}\", as a stop was given"));
-        }
-        if !texts.is_empty() {
-            self.object(&json!({ "event": "dropped", "count": texts.len(), "said": texts }));
-        }
-    }
-
     /// Something odd about a hand sensor; it goes on.
     pub fn odd(self, what: &str) {
         self.line("sensor", paint::bad(what));
@@ -237,9 +228,10 @@ impl Printer {
                 self.advice("not done", "distrusted", &advice);
             }
             Happening::Overruled => {
-                self.line("not done", "a stop was given meanwhile");
+                self.line("not done", "it was stopped or forbidden meanwhile");
                 self.object(&json!({ "event": "overruled" }));
             }
+            Happening::Withheld { modalities } => self.withheld(*modalities),
             Happening::Accepted(intent) => {
                 self.object(&json!({
                     "event": "accepted", "intent": report::intent(intent, lexicon),

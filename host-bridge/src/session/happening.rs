@@ -42,8 +42,13 @@ pub enum Happening {
     },
     /// A decision is not acted upon.
     Distrusted(Distrust),
-    /// A decision is not acted upon, as a stop was given after what it was made on.
+    /// A decision is not acted upon, as a stop was given, or it was forbidden, after what it was made on.
     Overruled,
+    /// What these modalities told is not decided on, one bit each: it was forbidden.
+    Withheld {
+        /// Which.
+        modalities: u8,
+    },
     /// The robot begins.
     Accepted(Intent),
     /// The robot does not begin; nothing has moved.

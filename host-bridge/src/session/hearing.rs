@@ -21,7 +21,7 @@ impl Session<'_> {
         match event {
             unit::Event::Decision { decided, trust } => {
                 self.decided(*decided, trust);
-                if !self.stopping {
+                if !self.stopping && self.forbidding == 0 {
                     self.due = None;
                 }
             }
@@ -55,9 +55,12 @@ impl Session<'_> {
                 }
             }
             unit::Event::Shown { sentence, answers } => self.shown(*sentence, answers),
+            unit::Event::Withheld(withheld) => self.withheld(withheld),
             unit::Event::Hand(_) | unit::Event::HandStatistics(_) | unit::Event::Sample(_) => {}
             unit::Event::Fault(fault) => {
-                self.due = None;
+                if self.forbidding == 0 {
+                    self.due = None;
+                }
                 self.happened.push(Happening::Fault(fault));
                 self.drop_queue();
             }
@@ -65,13 +68,17 @@ impl Session<'_> {
                 self.robot.stop(self.now());
                 self.due = None;
                 self.stopping = false;
+                self.forbidding = 0;
                 self.question = None;
                 self.showing = None;
                 self.reasons = None;
                 self.happened.push(Happening::Lost(loss));
                 self.drop_queue();
             }
-            unit::Event::Back(hello) => self.happened.push(Happening::Back(hello)),
+            unit::Event::Back(hello) => {
+                self.happened.push(Happening::Back(hello));
+                self.forbid_again();
+            }
         }
     }
 
@@ -115,7 +122,7 @@ impl Session<'_> {
             // A unit that cannot be told is lost, which is an event of its own.
             let _ = self.unit.ask_statistics();
         }
-        if self.stopping && !stops {
+        if (self.stopping || self.forbidding > 0) && !stops {
             self.happened.push(Happening::Overruled);
             self.report(number, RobotState::Refused);
             return;

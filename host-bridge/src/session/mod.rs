@@ -7,6 +7,7 @@
 //! the unit decides until it has confirmed it.
 
 mod ends;
+mod forbidding;
 mod happening;
 mod hearing;
 pub mod journal;
@@ -91,6 +92,10 @@ pub struct Session<'a> {
     /// Whether a stop was given that the unit has not yet confirmed: what it decides until then was
     /// decided on what was said before.
     stopping: bool,
+    /// How many prohibitions the unit has not yet confirmed, which overrule it alike.
+    forbidding: u32,
+    /// Until when what is shown belongs to what was forbidden.
+    forbidden: Option<Instant>,
     /// What is still to be said to the unit, once the robot is ready for more.
     queue: VecDeque<Sentence>,
     /// Since when a hand has been saying something.
@@ -129,6 +134,8 @@ impl<'a> Session<'a> {
             question: None,
             due: None,
             stopping: false,
+            forbidding: 0,
+            forbidden: None,
             queue: VecDeque::new(),
             showing: None,
             reasons: None,

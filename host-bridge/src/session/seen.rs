@@ -1,5 +1,7 @@
 //! What can be seen of a session from outside.
 
+use std::time::Duration;
+
 use deictic_core::decide::Question;
 
 use super::Session;
@@ -74,10 +76,22 @@ impl<'a> Session<'a> {
             && self.spoken.iter().all(|s| s.modality() != modality)
     }
 
+    /// How long what is said and what is shown may lie apart and belong together.
+    #[must_use]
+    pub fn window(&self) -> Duration {
+        Duration::from_micros(self.configuration.window.0)
+    }
+
     /// Whether a hand is in the middle of a sentence.
     #[must_use]
     pub fn is_showing(&self) -> bool {
         self.showing.is_some()
+    }
+
+    /// Whether the robot is doing something, or has been told to stop and does not stand yet.
+    #[must_use]
+    pub fn is_moving(&self) -> bool {
+        self.doing.is_some() || !self.overtaken.is_empty()
     }
 
     /// Whether the robot is held in the middle of a command.

@@ -5,6 +5,7 @@ use std::time::Duration;
 use deictic_core::gesture::wire::Sample;
 use deictic_core::large::Sentence;
 use deictic_core::profile::Profile;
+use deictic_core::sentence::LANGUAGE;
 use deictic_core::unit::pairing::HAND_PATIENCE;
 
 use super::{PATIENCE, Session, weigh_answers};
@@ -34,10 +35,16 @@ impl Session<'_> {
                 self.halt();
                 self.stopping = true;
             }
+            if sentence.modality() == LANGUAGE {
+                self.forbidden = None;
+            }
             self.hears(sentence);
             self.spoken.push(sentence.clone());
         }
-        self.unit.observe(sentences)?;
+        // A command ends what was forbidden before it, also for what is shown with it.
+        let mut told = sentences.to_vec();
+        told.sort_by_key(|sentence| sentence.modality() != LANGUAGE);
+        self.unit.observe(&told)?;
         let window = Duration::from_micros(self.configuration.window.0);
         self.due = Some(clock::now() + window + PATIENCE);
         Ok(())

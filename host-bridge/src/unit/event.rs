@@ -4,7 +4,7 @@ use deictic_core::gesture::wire::Sample;
 use deictic_core::large::Sentence;
 use deictic_core::protocol::hand::{HandStatistics, HandView};
 use deictic_core::protocol::message::{
-    Decided, Fault, Hello, Statistics, Why, WhyActions, WhyWhole,
+    Decided, Fault, Hello, Statistics, Why, WhyActions, WhyWhole, Withheld,
 };
 
 use super::trust::Distrust;
@@ -27,6 +27,8 @@ pub enum Event {
     WhyWhole(WhyWhole),
     /// Something was not right; nothing was done.
     Fault(Fault),
+    /// This is not decided on, as it was forbidden.
+    Withheld(Withheld),
     /// What it has counted.
     Statistics(Statistics),
     /// A hand has begun to say something; `false`: it is over.

@@ -196,6 +196,7 @@ impl GestureUnit {
                 None
             }
             ToHost::Statistics(statistics) => Some(Event::Statistics(statistics)),
+            ToHost::Withheld(withheld) => Some(Event::Withheld(withheld)),
             ToHost::Showing(showing) => Some(Event::Showing(showing)),
             ToHost::Shown(part) => self.shown(part),
             ToHost::Hand(view) => Some(Event::Hand(Box::new(view))),

@@ -55,6 +55,16 @@ impl GestureUnit {
         })
     }
 
+    /// Tells the unit that this modality forbade, asked or told something, or was not understood: what waits, and what
+    /// others show within the pairing window, is not to be done. The answer is an [`super::Event::Withheld`] that
+    /// confirms it.
+    ///
+    /// # Errors
+    /// [`UnitError`]; the unit has then not heard it.
+    pub fn forbid(&mut self, modality: u8) -> Result<(), UnitError> {
+        self.with(|c| c.say(&ToUnit::Forbid(modality)))
+    }
+
     /// Tells the unit how the robot fares.
     ///
     /// # Errors

@@ -154,13 +154,24 @@ pub fn open_with<'a>(
     robot: Box<dyn Robot>,
     table: Tabletop,
 ) -> Session<'a> {
+    open_within(cable, lexicon, robot, table, Micros::from_millis(30))
+}
+
+/// A session with this pairing window.
+pub fn open_within<'a>(
+    cable: &Cable,
+    lexicon: &'a Lexicon,
+    robot: Box<dyn Robot>,
+    table: Tabletop,
+    window: Micros,
+) -> Session<'a> {
     let wire = cable.clone();
     let opener = Box::new(move || {
         wire.with(|line| line.opened += 1);
         Ok(Box::new(wire.clone()) as Box<dyn Wire>)
     });
     let configuration = Configuration {
-        window: Micros::from_millis(30),
+        window,
         ..Configuration::DEFAULT
     };
     Session::open(opener, robot, table, lexicon, configuration).unwrap()

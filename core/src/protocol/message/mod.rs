@@ -20,7 +20,7 @@ pub use parts::{
     ACTIONS_PART, ENTITIES_PART, ScenePart, SensorPart, SensorRow, SentencePart, VocabularyPart,
     WORDS_PART,
 };
-pub use told::{Decided, Statistics, Why, WhyActions, WhyWhole};
+pub use told::{Decided, Statistics, Why, WhyActions, WhyWhole, Withheld};
 
 /// What a host says to a unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,6 +60,9 @@ pub enum ToUnit<const N: usize, const C: usize, const F: usize> {
     Answer(Answer<N>),
     /// Pass on what your own hand sensor sends, or stop to.
     Relay(bool),
+    /// This modality forbade, asked or told something, or said what nobody understood: what waits, and what others show
+    /// within the pairing window, is not to be done.
+    Forbid(u8),
 }
 
 impl<const N: usize, const C: usize, const F: usize> Opening for ToUnit<N, C, F> {
@@ -111,6 +114,8 @@ pub enum ToHost<const N: usize, const C: usize> {
     Sample(SampleBytes),
     /// When configured: why, the whole intent; of the joint model.
     WhyWhole(WhyWhole),
+    /// This is not decided on, as it was forbidden.
+    Withheld(Withheld),
 }
 
 impl<const N: usize, const C: usize> Opening for ToHost<N, C> {

@@ -25,6 +25,16 @@ pub struct Decided<const C: usize> {
     pub decision: Decision<C>,
 }
 
+/// What is not decided on, as it was forbidden.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Withheld {
+    /// The modalities whose sentences are dropped, one bit each; none when nothing waited.
+    pub modalities: u8,
+    /// Whether this answers a [`super::ToUnit::Forbid`]: each is answered once, and every decision told after that was
+    /// made on what came after it. Otherwise a sentence came within the window.
+    pub confirms: bool,
+}
+
 /// Why a decision came out as it did: one category ([`crate::trace::CategoryTrace`]).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Why<const N: usize> {

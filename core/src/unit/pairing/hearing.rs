@@ -1,5 +1,6 @@
 //! What a sentence or an answer does when all of it has arrived.
 
+use super::forbidding::Forbidden;
 use super::{HAND_PATIENCE, LOOKING, Pairing, Source};
 use crate::category::Category;
 use crate::clarify::Confirmation;
@@ -33,6 +34,7 @@ impl<
         if let Some(spoken) = self.hand.take_spoken() {
             self.look_at_hand(now, spoken);
         }
+        self.pairing.forbidden.watch(now, self.hand.is_showing());
         if self.pairing.is_due(now) && !self.waits_for_hand(now) {
             self.decide_pending(now);
         }
@@ -66,8 +68,8 @@ impl<
         (now < open.until).then_some(open.number)
     }
 
-    /// Looks at the sentence that has arrived: a clear stop is told at once, the last one expected
-    /// makes the decision due, any other waits.
+    /// Looks at the sentence that has arrived: a clear stop is told at once, one that is forbidden is not taken, the
+    /// last one expected makes the decision due, any other waits.
     fn observe(&mut self, now: Micros, source: Source) -> Result<(), Fault> {
         let vocabulary = self.loading.vocabulary().ok_or(Fault::NoVocabulary)?;
         let arrived = match source {
@@ -85,6 +87,13 @@ impl<
             return Ok(());
         }
         self.loading.scene().ok_or(Fault::NoScene)?;
+        if self.pairing.forbidden.holds(now, source, modality) {
+            self.withhold(modality);
+            return Ok(());
+        }
+        if self.pairing.forbidden.is_by(modality) {
+            self.pairing.forbidden = Forbidden::NOTHING;
+        }
         if self.pairing.question.take().is_some() {
             // A new command instead of an answer.
             self.pairing.clear();

@@ -2,6 +2,7 @@
 //! or their window closes.
 
 mod deciding;
+mod forbidding;
 mod hearing;
 
 use super::loading::in_order;
@@ -12,6 +13,7 @@ use crate::observations::Observations;
 use crate::protocol::message::{Fault, SentencePart};
 use crate::sentence::Sentence;
 use crate::time::Micros;
+use forbidding::Forbidden;
 
 /// How long a decision waits for a hand that is in the middle of a sentence, from the first sentence
 /// of another modality on. People point for seconds, and say what they point at in the middle of it.
@@ -58,6 +60,7 @@ pub struct Pairing<const N: usize, const C: usize, const W: usize> {
     /// Until when a hand that is in the middle of a sentence is waited for.
     patience: Micros,
     question: Option<Open>,
+    forbidden: Forbidden,
     numbered: u32,
 }
 
@@ -79,13 +82,14 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
             due: Micros::NEVER,
             patience: Micros(0),
             question: None,
+            forbidden: Forbidden::NOTHING,
             numbered: 0,
         }
     }
 
     /// As new, in place.
     pub fn restart(&mut self) {
-        self.clear();
+        self.forget();
         self.arriving.restart(0);
         self.answers = None;
         self.complete = false;
@@ -98,6 +102,12 @@ impl<const N: usize, const C: usize, const W: usize> Pairing<N, C, W> {
         self.due = Micros::NEVER;
         self.patience = Micros(0);
         self.question = None;
+    }
+
+    /// Forgets what waits and what is forbidden.
+    pub fn forget(&mut self) {
+        self.clear();
+        self.forbidden = Forbidden::NOTHING;
     }
 
     /// When what waits is to be decided with what there is.

@@ -5,16 +5,16 @@ use deictic_core::decide::Question;
 use super::{AGAIN, Conversation};
 use crate::answering::{Reply, reply};
 use crate::session::Session;
-use crate::understanding::Understood;
+use crate::understanding::{Bearing, Understood, bearing};
 
 impl Conversation<'_> {
     /// Takes what was said while a question is open: its answer, a command of its own, or nothing that tells more, so
     /// that the question is put again.
     pub(super) fn answer(&mut self, session: &mut Session<'_>, text: &str, question: &Question) {
         let reply = reply(text, question, self.listener, session.lexicon());
-        if let Ok(Reply::Command(command @ Understood::Commands(_))) = reply {
+        if let Ok(Reply::Command(Understood::Commands(commands))) = reply {
             self.printer.instead(text);
-            self.give(session, command, None);
+            self.give(session, commands, None);
             return;
         }
         self.printer.answered(text);
@@ -22,14 +22,19 @@ impl Conversation<'_> {
             Ok(Reply::Answer(sentence)) => session.answer(*sentence),
             Ok(Reply::YesOrNo(likelihoods)) => session.yes_or_no(likelihoods),
             Ok(Reply::Neither) => {
-                session.stop();
+                self.refuse(session, text);
                 self.printer.nothing("the question is withdrawn");
                 return;
             }
-            Ok(Reply::Command(understood)) => {
-                self.give(session, understood, None);
+            Ok(Reply::Command(Understood::Nothing(why))) => {
+                self.printer.nothing(&why);
+                let utterance = self.listener.understand(text).unwrap_or_default();
+                if bearing(text, &utterance, session.lexicon()) == Bearing::Refuses {
+                    return self.refuse(session, text);
+                }
                 return self.ask_again();
             }
+            Ok(Reply::Command(Understood::Commands(_))) => return,
             Ok(Reply::Unclear) => {
                 self.printer
                     .nothing(&format!("\"{text}\" does not say which"));

@@ -1,11 +1,23 @@
 //! What was typed or spoken and waits for its turn.
 
+use std::time::{Duration, Instant};
+
+use deictic_core::large::Sentence;
 use deictic_core::sentence::{GESTURE, LANGUAGE};
 
+use crate::clock;
 use crate::language::Spoken;
 
 /// What is between said and shown in a line.
 pub const BETWEEN: &str = "//";
+
+/// What is said and what is shown in a line; either may be empty.
+pub fn parts(line: &str) -> (&str, &str) {
+    match line.split_once(BETWEEN) {
+        None => (line.trim(), ""),
+        Some((said, shown)) => (said.trim(), shown.trim()),
+    }
+}
 
 /// What waits for its turn.
 pub enum Input {
@@ -13,13 +25,20 @@ pub enum Input {
     Line(String),
     /// An utterance that was heard.
     Spoken(Spoken),
+    /// What was waiting or being done, as it was corrected.
+    Corrected {
+        /// How it was corrected.
+        text: String,
+        /// What is to be done now.
+        sentence: Box<Sentence>,
+    },
 }
 
 impl Input {
     /// What it says, in words.
     pub fn text(&self) -> &str {
         match self {
-            Self::Line(text) => text,
+            Self::Line(text) | Self::Corrected { text, .. } => text,
             Self::Spoken(spoken) => spoken.best(),
         }
     }
@@ -27,12 +46,34 @@ impl Input {
     /// The modality that it is, where it is only one.
     pub fn modality(&self) -> Option<u8> {
         match self {
-            Self::Spoken(_) => Some(LANGUAGE),
+            Self::Spoken(_) | Self::Corrected { .. } => Some(LANGUAGE),
             Self::Line(text) => match text.split_once(BETWEEN) {
                 None => Some(LANGUAGE),
                 Some((said, _)) if said.trim().is_empty() => Some(GESTURE),
                 Some(_) => None,
             },
         }
+    }
+}
+
+/// Something that waits, and since when.
+pub struct Waiting {
+    /// What.
+    pub input: Input,
+    came: Instant,
+}
+
+impl Waiting {
+    /// It comes now.
+    pub fn new(input: Input) -> Self {
+        Self {
+            input,
+            came: clock::now(),
+        }
+    }
+
+    /// Whether it is nothing but a gesture that was shown within the last `window`.
+    pub fn is_shown_within(&self, window: Duration) -> bool {
+        self.input.modality() == Some(GESTURE) && clock::since(self.came) < window
     }
 }

@@ -155,7 +155,10 @@ impl Host {
                 self.say(&ToUnit::Meanings(meanings));
             }
             27 => self.say(&ToUnit::AskHand),
-            28 => self.say(&ToUnit::Relay(source.flag())),
+            28 => match source.small(8) {
+                flag @ (0 | 1) => self.say(&ToUnit::Relay(flag == 1)),
+                beyond => self.say(&ToUnit::Forbid(beyond - 2)),
+            },
             _ => {
                 let version = u16::from(source.byte());
                 let schema = source.word();

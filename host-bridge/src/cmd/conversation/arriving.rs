@@ -1,0 +1,258 @@
+//! What is done at once about what is typed and spoken, whatever is going on, and what waits for its turn.
+//!
+//! Standing still harms nobody. So a stop, a hold, a prohibition and a "no" wait for nothing, and neither does leaving;
+//! what is being done is stopped before all of it is understood. What was shown with words that forbid, ask or are not
+//! understood is no command either.
+
+use deictic_core::large::Sentence;
+use deictic_core::sentence::GESTURE;
+
+use super::input::{Input, Waiting, parts};
+use super::{AGAIN, Conversation, Ending, likeliest_order};
+use crate::language::{LanguageError, Spoken, Utterance, text_of};
+use crate::session::{Order, Session};
+use crate::understanding::{self, Bearing, Understood, bearing, mentions_stop};
+
+/// A share of what may have been heard that is enough to stand still.
+const MAY_BE_STOP: f64 = 0.2;
+
+impl Conversation<'_> {
+    /// Takes a typed line. One that says stop, or that what is going on is not to go on, is carried out at once, others
+    /// when what was typed before is over.
+    pub fn line(&mut self, session: &mut Session<'_>, line: &[u8]) {
+        let text = match text_of(line) {
+            Ok(text) => text.trim(),
+            Err(error) => {
+                self.not_understood(session, &error);
+                return;
+            }
+        };
+        if mentions_stop(text, session.lexicon()) {
+            self.drop_waiting();
+            session.stop();
+            self.typed(session, text);
+        } else if let Some(order @ (Order::Hold | Order::Resume | Order::Clear)) = Order::of(text) {
+            self.order(session, order);
+        } else if text == "cancel" {
+            self.printer
+                .nothing(&format!("{} typed lines are forgotten", self.waiting.len()));
+            self.waiting.clear();
+            session.cancel();
+        } else if session.is_moving() && matches!(text, "quit" | "exit") {
+            self.drop_waiting();
+            self.printer.stopped(text);
+            session.stop();
+            self.quit();
+        } else if session.is_moving() && matches!(text, "table" | "help" | "?") {
+            self.typed(session, text);
+        } else if !text.is_empty() {
+            self.arrived(session, text);
+        }
+    }
+
+    fn arrived(&mut self, session: &mut Session<'_>, text: &str) {
+        let (said, shown) = parts(text);
+        if said.is_empty() {
+            let passed_on = session.is_idle() || !self.waiting.is_empty();
+            if session.forbids() && !passed_on {
+                self.printer.heard(None, Some(shown));
+                self.withheld();
+                return;
+            }
+            return self.wait(Input::Line(text.to_owned()));
+        }
+        let own = matches!(said, "quit" | "exit" | "help" | "?" | "table");
+        if own || Order::of(said).is_some() || session.question().is_some() {
+            return self.wait(Input::Line(text.to_owned()));
+        }
+        let listener = self.listener;
+        let seen = Some(shown).filter(|shown| !shown.is_empty());
+        let heard = |s: &mut Self| s.printer.heard(Some(said), seen);
+        match listener.understand(said) {
+            Err(error) if self.may_be_aside(session) => {
+                heard(self);
+                self.not_understood(session, &error);
+            }
+            Err(_) => self.wait(Input::Line(text.to_owned())),
+            Ok(utterance) => match bearing(said, &utterance, session.lexicon()) {
+                Bearing::Refuses if utterance.commands.is_empty() => {
+                    heard(self);
+                    self.refuse(session, said);
+                    self.nothing(said, utterance);
+                }
+                Bearing::Refuses if !session.is_idle() => {
+                    self.refuse(session, said);
+                    self.wait(Input::Line(text.to_owned()));
+                }
+                Bearing::Corrects if seen.is_none() => match self.corrected(session, &utterance) {
+                    Some(sentence) => {
+                        heard(self);
+                        self.correct(session, said, sentence);
+                    }
+                    None => self.wait(Input::Line(text.to_owned())),
+                },
+                Bearing::Aside if self.may_be_aside(session) => {
+                    heard(self);
+                    self.nothing(said, utterance);
+                    self.forbid(session);
+                }
+                _ => self.wait(Input::Line(text.to_owned())),
+            },
+        }
+    }
+
+    /// Takes an utterance that was heard. One that may have been stop or no makes the robot stand still at once.
+    pub fn spoken(&mut self, session: &mut Session<'_>, spoken: Spoken) {
+        let lexicon = session.lexicon();
+        let alternatives = spoken.alternatives.iter();
+        let stop = alternatives.filter(|(text, _)| mentions_stop(text, lexicon));
+        if stop.map(|(_, share)| share).sum::<f64>() > MAY_BE_STOP {
+            self.drop_waiting();
+            session.stop();
+        }
+        let (order, share) = likeliest_order(&spoken);
+        // Standing still harms nobody, so what may have been hold is done at once.
+        let enough = match order {
+            Some(Order::Hold) => MAY_BE_STOP,
+            _ => 1.0 - self.listener.risk,
+        };
+        match order {
+            Some(order @ (Order::Hold | Order::Resume | Order::Clear)) if share >= enough => {
+                self.printer.spoken(&spoken);
+                self.order(session, order);
+            }
+            _ if session.question().is_none() => {
+                let ordered = order.is_some() && share > self.listener.risk;
+                self.uttered(session, spoken, ordered);
+            }
+            _ => self.wait(Input::Spoken(spoken)),
+        }
+    }
+
+    /// Takes an utterance that is no stop, and perhaps an order.
+    fn uttered(&mut self, session: &mut Session<'_>, spoken: Spoken, ordered: bool) {
+        let (listener, lexicon) = (self.listener, session.lexicon());
+        let refuses = |text: &str| {
+            let utterance = listener.understand(text).ok();
+            let bearing = utterance.map(|utterance| bearing(text, &utterance, lexicon));
+            matches!(bearing, Some(Bearing::Refuses | Bearing::Corrects))
+        };
+        let alternatives = spoken.alternatives.iter();
+        let refusing = alternatives.filter(|(text, _)| !text.is_empty() && refuses(text));
+        let refused = refusing.map(|(_, share)| share).sum::<f64>() > MAY_BE_STOP;
+        if !refused && (ordered || spoken.best().is_empty()) {
+            return self.wait(Input::Spoken(spoken));
+        }
+        let text = spoken.best().to_owned();
+        let aside = self.may_be_aside(session);
+        match listener.hear(&spoken) {
+            Ok(utterance) if !utterance.commands.is_empty() => {
+                let corrected = self.corrected(session, &utterance);
+                if let Some(sentence) = corrected.filter(|_| refused) {
+                    self.printer.spoken(&spoken);
+                    return self.correct(session, &text, sentence);
+                }
+                if refused && !session.is_idle() {
+                    self.refuse(session, &text);
+                }
+                self.wait(Input::Spoken(spoken));
+            }
+            Ok(utterance) if refused => {
+                self.printer.spoken(&spoken);
+                self.refuse(session, &text);
+                self.nothing(&text, utterance);
+            }
+            Err(error) if refused => {
+                self.printer.spoken(&spoken);
+                self.refuse(session, &text);
+                self.printer.not_understood(&error, error.remedy());
+            }
+            Err(error) if aside => {
+                self.printer.spoken(&spoken);
+                self.not_understood(session, &error);
+            }
+            Ok(utterance) if aside && bearing(&text, &utterance, lexicon) == Bearing::Aside => {
+                self.printer.spoken(&spoken);
+                self.nothing(&text, utterance);
+                self.forbid(session);
+            }
+            _ => self.wait(Input::Spoken(spoken)),
+        }
+    }
+
+    /// Whether a question or the like can concern what is shown: not when a command was said that waits for it.
+    fn may_be_aside(&self, session: &Session<'_>) -> bool {
+        !session.is_waiting_for(GESTURE)
+    }
+
+    /// What is being done and what waits is not to be done.
+    pub(super) fn refuse(&mut self, session: &mut Session<'_>, text: &str) {
+        if session.is_moving() {
+            self.printer.stopped(text);
+        }
+        self.last = Ending::NotDone;
+        self.drop_waiting();
+        if let Err(error) = session.refuse() {
+            self.printer.not_understood(&error, AGAIN.into());
+        }
+    }
+
+    /// What waits or is being done, as an utterance corrects it; `None` when it does not, or there is nothing of the kind.
+    fn corrected(&self, session: &Session<'_>, utterance: &Utterance) -> Option<Sentence> {
+        let command = utterance.commands.first().filter(|c| c.corrects)?;
+        // What has more words than a sentence is a command of its own.
+        session.corrected(command).ok().flatten()
+    }
+
+    /// Has what waits or is being done done differently, as soon as the arm stands.
+    fn correct(&mut self, session: &mut Session<'_>, text: &str, sentence: Sentence) {
+        self.refuse(session, text);
+        let sentence = Box::new(sentence);
+        let text = text.to_owned();
+        self.wait(Input::Corrected { text, sentence });
+    }
+
+    /// What was shown with what was just said is not to be done.
+    pub(super) fn forbid(&mut self, session: &mut Session<'_>) {
+        self.last = Ending::NotDone;
+        let window = session.window();
+        let before = self.waiting.len();
+        self.waiting
+            .retain(|waiting| !waiting.is_shown_within(window));
+        if self.waiting.len() < before {
+            self.withheld();
+        }
+        if let Err(error) = session.forbid() {
+            self.printer.not_understood(&error, AGAIN.into());
+        }
+    }
+
+    /// Something was said that nobody understood. It may have been anything, so what was shown with it is not done.
+    pub(super) fn not_understood(&mut self, session: &mut Session<'_>, error: &LanguageError) {
+        self.printer.not_understood(error, error.remedy());
+        self.forbid(session);
+    }
+
+    fn withheld(&mut self) {
+        self.last = Ending::NotDone;
+        self.printer.withheld(1 << GESTURE);
+    }
+
+    /// Tells what was understood to be no command.
+    fn nothing(&mut self, text: &str, utterance: Utterance) {
+        self.last = Ending::NotDone;
+        if let Understood::Nothing(why) = understanding::of(text, utterance) {
+            self.printer.nothing(&why);
+        }
+    }
+
+    fn wait(&mut self, input: Input) {
+        self.waiting.push_back(Waiting::new(input));
+    }
+
+    fn drop_waiting(&mut self) {
+        let texts = self.waiting.drain(..);
+        let texts: Vec<_> = texts.map(|w| w.input.text().to_owned()).collect();
+        self.printer.dropped(&texts);
+    }
+}
