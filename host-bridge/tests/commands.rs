@@ -178,7 +178,7 @@ fn run_takes_lines_and_answers_and_survives_anything() {
         b"put it down in the drawer // put-into can drawer\n",
         &vec![b'x'; 100_000],
         b"\n\x1b[2J\x07\n",
-        b"// pick cup\n",
+        b"pick the cup // pick cup\n",
     ]
     .concat();
     let run = [

@@ -102,7 +102,12 @@ impl<'a> Conversation<'a> {
         };
         let ready = match session.is_idle() {
             true => Some(0),
-            false => self.waiting.iter().position(fits),
+            false => {
+                // What is shown after further words belongs to those.
+                let mut waiting = self.waiting.iter();
+                let stands = waiting.position(|w| fits(w) || w.input.says_something());
+                stands.filter(|at| self.waiting.get(*at).is_some_and(fits))
+            }
         };
         let next = ready.and_then(|at| self.waiting.remove(at));
         match next.map(|waiting| waiting.input) {

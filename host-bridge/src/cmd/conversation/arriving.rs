@@ -22,9 +22,12 @@ impl Conversation<'_> {
     pub fn line(&mut self, session: &mut Session<'_>, line: &[u8]) {
         let text = match text_of(line) {
             Ok(text) => text.trim(),
+            Err(error) if self.may_be_aside(session) => {
+                return self.not_understood(session, &error);
+            }
             Err(error) => {
-                self.not_understood(session, &error);
-                return;
+                self.last = Ending::NotDone;
+                return self.printer.not_understood(&error, error.remedy());
             }
         };
         if mentions_stop(text, session.lexicon()) {
@@ -180,9 +183,11 @@ impl Conversation<'_> {
         }
     }
 
-    /// Whether a question or the like can concern what is shown: not when a command was said that waits for it.
+    /// Whether a question or the like can concern what is shown: not when a command was said before it that waits for
+    /// that, or for its turn.
     fn may_be_aside(&self, session: &Session<'_>) -> bool {
-        !session.is_waiting_for(GESTURE)
+        let shown = |waiting: &Waiting| waiting.input.modality() == Some(GESTURE);
+        !session.is_waiting_for(GESTURE) && self.waiting.iter().all(shown)
     }
 
     /// What is being done and what waits is not to be done.

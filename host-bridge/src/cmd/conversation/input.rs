@@ -43,6 +43,11 @@ impl Input {
         }
     }
 
+    /// Whether it has words in it that somebody may have meant.
+    pub fn says_something(&self) -> bool {
+        self.modality() != Some(GESTURE) && !self.text().is_empty()
+    }
+
     /// The modality that it is, where it is only one.
     pub fn modality(&self) -> Option<u8> {
         match self {
