@@ -7,11 +7,11 @@ mod input;
 
 use std::collections::VecDeque;
 
+use deictic_core::large::Sentence;
+
 pub use self::ending::Ending;
 use self::input::{Input, Waiting, parts};
 use super::printer::Printer;
-use deictic_core::large::Sentence;
-
 use crate::explain;
 use crate::language::{LanguageError, Listener, Spoken, Utterance};
 use crate::sensor::Sensors;
@@ -89,6 +89,7 @@ impl<'a> Conversation<'a> {
     /// Takes the next input when the session is ready for it: when nothing is going on, or when the
     /// unit waits for just that modality.
     pub fn next(&mut self, session: &mut Session<'_>) {
+        self.look_again(session);
         if self.quits && session.is_held() {
             // Nobody is there any more to have it go on.
             session.stop();

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use deictic_core::decide::Question;
+use deictic_core::large::Sentence;
 
 use super::Session;
 use crate::robot::Posture;
@@ -80,6 +81,16 @@ impl<'a> Session<'a> {
     #[must_use]
     pub fn window(&self) -> Duration {
         Duration::from_micros(self.configuration.window.0)
+    }
+
+    /// Whether the unit was told all that it waits for, so that a decision comes at once.
+    #[must_use]
+    pub fn is_deciding(&self) -> bool {
+        let bit = |s: &Sentence| 1_u8.checked_shl(u32::from(s.modality())).unwrap_or(0);
+        let told = self.spoken.iter().fold(0, |told, s| told | bit(s));
+        let expected = self.configuration.expected;
+        let overruled = self.stopping || self.forbidding > 0;
+        self.due.is_some() && !overruled && !self.is_moving() && told & expected == expected
     }
 
     /// Whether a hand is in the middle of a sentence.

@@ -12,12 +12,10 @@ impl Conversation<'_> {
     /// that the question is put again.
     pub(super) fn answer(&mut self, session: &mut Session<'_>, text: &str, question: &Question) {
         let reply = reply(text, question, self.listener, session.lexicon());
-        if let Ok(Reply::Command(Understood::Commands(commands))) = reply {
-            self.printer.instead(text);
-            self.give(session, commands, None);
-            return;
+        match &reply {
+            Ok(Reply::Command(Understood::Commands(_))) => self.printer.instead(text),
+            _ => self.printer.answered(text),
         }
-        self.printer.answered(text);
         let told = match reply {
             Ok(Reply::Answer(sentence)) => session.answer(*sentence),
             Ok(Reply::YesOrNo(likelihoods)) => session.yes_or_no(likelihoods),
@@ -34,7 +32,9 @@ impl Conversation<'_> {
                 }
                 return self.ask_again();
             }
-            Ok(Reply::Command(Understood::Commands(_))) => return,
+            Ok(Reply::Command(Understood::Commands(commands))) => {
+                return self.give(session, commands, None);
+            }
             Ok(Reply::Unclear) => {
                 self.printer
                     .nothing(&format!("\"{text}\" does not say which"));

@@ -64,6 +64,9 @@ impl Conversation<'_> {
             }
             return self.wait(Input::Line(text.to_owned()));
         }
+        if session.is_deciding() {
+            return self.hold(Input::Line(text.to_owned()));
+        }
         let own = matches!(said, "quit" | "exit" | "help" | "?" | "table");
         if own || Order::of(said).is_some() || session.question().is_some() {
             return self.wait(Input::Line(text.to_owned()));
@@ -124,11 +127,30 @@ impl Conversation<'_> {
                 self.printer.spoken(&spoken);
                 self.order(session, order);
             }
+            _ if session.is_deciding() => self.hold(Input::Spoken(spoken)),
             _ if session.question().is_none() => {
                 let ordered = order.is_some() && share > self.listener.risk;
                 self.uttered(session, spoken, ordered);
             }
             _ => self.wait(Input::Spoken(spoken)),
+        }
+    }
+
+    /// Looks again at what came while a decision was about to be made: it may answer the question that was asked, or speak of
+    /// what is being done now.
+    pub(super) fn look_again(&mut self, session: &mut Session<'_>) {
+        if session.is_deciding() {
+            return;
+        }
+        while let Some(at) = self.waiting.iter().position(|waiting| waiting.held) {
+            let mut later = self.waiting.split_off(at);
+            match later.pop_front().map(|waiting| waiting.input) {
+                Some(Input::Line(text)) => self.arrived(session, &text),
+                Some(Input::Spoken(spoken)) => self.spoken(session, spoken),
+                Some(input @ Input::Corrected { .. }) => self.wait(input),
+                None => {}
+            }
+            self.waiting.append(&mut later);
         }
     }
 
@@ -253,6 +275,11 @@ impl Conversation<'_> {
 
     fn wait(&mut self, input: Input) {
         self.waiting.push_back(Waiting::new(input));
+    }
+
+    /// Has something looked at again when the decision is there that is about to be made.
+    fn hold(&mut self, input: Input) {
+        self.waiting.push_back(Waiting::held(input));
     }
 
     fn drop_waiting(&mut self) {

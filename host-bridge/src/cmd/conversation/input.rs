@@ -65,6 +65,8 @@ impl Input {
 pub struct Waiting {
     /// What.
     pub input: Input,
+    /// Whether it came while a decision was about to be made, and nobody knew yet what it speaks of.
+    pub held: bool,
     came: Instant,
 }
 
@@ -73,7 +75,16 @@ impl Waiting {
     pub fn new(input: Input) -> Self {
         Self {
             input,
+            held: false,
             came: clock::now(),
+        }
+    }
+
+    /// It comes now, while a decision is about to be made.
+    pub fn held(input: Input) -> Self {
+        Self {
+            held: true,
+            ..Self::new(input)
         }
     }
 
