@@ -176,6 +176,7 @@ impl<
         }
         self.watch_sensor(now);
         self.settle(now);
+        self.watch_forbidden(now);
         if now >= self.beat {
             self.beat = now.after(HEARTBEAT);
             self.send(&ToHost::Heartbeat(Heartbeat {

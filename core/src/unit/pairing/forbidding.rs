@@ -86,6 +86,11 @@ impl<
         Ok(())
     }
 
+    /// Looks at the hand, after what it said.
+    pub(in crate::unit) fn watch_forbidden(&mut self, now: Micros) {
+        self.pairing.forbidden.watch(now, self.hand.is_showing());
+    }
+
     /// Tells the host that this modality's sentence is not taken.
     #[inline(never)]
     pub(super) fn withhold(&mut self, modality: u8) {

@@ -28,13 +28,16 @@ impl<
         if core::mem::take(&mut self.pairing.complete) {
             self.look_at(now, Source::Host, self.pairing.answers);
         }
-        if !self.hand.pending.is_empty() {
+        let sampled = !self.hand.pending.is_empty();
+        if sampled {
             self.take_sample(now);
         }
         if let Some(spoken) = self.hand.take_spoken() {
             self.look_at_hand(now, spoken);
         }
-        self.pairing.forbidden.watch(now, self.hand.is_showing());
+        if sampled {
+            self.watch_forbidden(now);
+        }
         if self.pairing.is_due(now) && !self.waits_for_hand(now) {
             self.decide_pending(now);
         }
