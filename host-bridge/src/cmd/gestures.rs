@@ -8,7 +8,8 @@ use miette::{IntoDiagnostic, Result, WrapErr};
 
 use super::aiming::Aim;
 use super::{advice, counted};
-use crate::hand::learning::{Performance, learn, strokes};
+use crate::hand::learning::learn;
+use crate::hand::performance::{Performance, strokes};
 use crate::hand::source::recording;
 use crate::hand::taught::{Taught, known};
 

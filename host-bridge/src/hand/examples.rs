@@ -4,11 +4,18 @@ use std::collections::BTreeMap;
 
 use deictic_core::gesture::path::Stroke;
 use deictic_core::gesture::stroke::distance;
-use deictic_core::gesture::template::Template;
+use deictic_core::gesture::template::{Scale, Template};
 use rayon::prelude::*;
 
-use super::fitting::ASSUMED;
-use super::learning::Performance;
+use super::performance::Performance;
+
+/// What is assumed of people whose strokes are too few to tell.
+pub(super) const ASSUMED: Scale = Scale {
+    shape: 0.05,
+    length: 0.02,
+    seconds: 0.02,
+    reach: 0.6,
+};
 
 /// A distance that counts for no more when middles are sought: one stranger among the strokes is not worth an example.
 const FAR: f32 = 10.0;

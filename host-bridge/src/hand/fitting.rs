@@ -3,15 +3,7 @@
 use deictic_core::gesture::template::{PLAIN, Scale};
 use rayon::prelude::*;
 
-use super::examples::Examples;
-
-/// What is assumed of people whose strokes are too few to tell.
-pub(super) const ASSUMED: Scale = Scale {
-    shape: 0.05,
-    length: 0.02,
-    seconds: 0.02,
-    reach: 0.6,
-};
+use super::examples::{ASSUMED, Examples};
 
 /// Fewer strokes than this tell too little.
 const ENOUGH: usize = 50;

@@ -24,6 +24,7 @@ pub mod learning;
 mod letters;
 pub mod meaning;
 pub mod movement;
+pub mod performance;
 pub mod posture;
 pub mod session;
 pub mod source;

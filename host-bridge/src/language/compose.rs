@@ -1,10 +1,11 @@
 //! Clauses to a queue of commands: corrections replace, prohibitions and questions set aside, "it"
 //! finds what was spoken of, "before" and "after" put in order.
 
-use super::clause::{Clause, Link, Mood, request};
+use super::clause::{Clause, Link, Mood};
 use super::draft::{Draft, Slot};
 use super::drafter::drafts;
 use super::error::LanguageError;
+use super::mood::request;
 use super::read::{Piece, What};
 use super::table::Table;
 use crate::vocabulary::Lexicon;

@@ -16,6 +16,7 @@ mod fill;
 mod forms;
 mod guess;
 pub(crate) mod likeness;
+mod mood;
 pub mod pack;
 mod place;
 mod quantity;
@@ -140,7 +141,7 @@ impl<'a> Listener<'a> {
     pub fn understand(&self, text: &str) -> Result<Utterance, LanguageError> {
         let mut pieces = read::read(&token::tokens(text)?, &self.table)?;
         self.guesser.mend(&mut pieces);
-        let clauses = clause::clauses(&pieces, &self.table);
+        let clauses = mood::clauses(&pieces, &self.table);
         let plan = compose::compose(&clauses, &self.table, self.lexicon);
         let plan = plan.map_err(|e| self.with_nearest(e, text))?;
         if plan.commands.len() > QUEUE {

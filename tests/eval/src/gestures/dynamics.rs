@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::{Context, bail};
-use deictic::hand::learning::{GESTURES_AT_MOST, Learned, Performance, learn, stroke};
+use deictic::hand::learning::{GESTURES_AT_MOST, Learned, learn};
 use deictic::hand::movement::{GESTURES, Manner};
+use deictic::hand::performance::{Performance, stroke};
 use deictic_core::gesture::stroke::{Comparison, Templates};
 use deictic_core::gesture::template::Scale;
 use rand::SeedableRng;
