@@ -27,7 +27,7 @@ enum Command {
 }
 
 fn main() -> miette::Result<ExitCode> {
-    let json = std::env::args().any(|argument| argument == "--json");
+    let json = std::env::args_os().any(|argument| argument == "--json");
     match Cli::parse().command.run() {
         Err(report) if json => {
             let help = report.help().map(|help| help.to_string());

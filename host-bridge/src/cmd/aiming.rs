@@ -134,7 +134,7 @@ impl Eyes {
         let odd = |what: String| anstream::eprintln!("{}", paint::bad(what));
         let unit = match self {
             Self::Here(source) => {
-                let more = drain(source, take, odd);
+                let more = drain(source, take, |error| odd(error.to_string()));
                 std::thread::sleep(Duration::from_millis(2));
                 return Ok(more);
             }

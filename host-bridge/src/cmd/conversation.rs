@@ -29,6 +29,8 @@ pub struct Conversation<'a> {
     asked: Option<String>,
     last: Ending,
     quits: bool,
+    /// Whether something went wrong that no command makes good.
+    failed: bool,
     /// What observes what is said and shown; without any it is observed as it was typed.
     sensors: Option<Sensors<'a>>,
     /// What the unit was told of those who observe.
@@ -45,6 +47,7 @@ impl<'a> Conversation<'a> {
             asked: None,
             last: Ending::Done,
             quits: false,
+            failed: false,
             sensors: None,
             told: SensorModel::default(),
         }

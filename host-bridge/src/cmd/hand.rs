@@ -72,6 +72,8 @@ impl Hand {
         let mut source = self.sensing.open(&table, &lexicon)?;
         let mut record = Record::open(&self)?;
         let interrupts = interrupts()?;
+        // The last thing that was odd about the sensor: the run goes on, and has not gone well.
+        let mut odd = None;
         if let Some(line) = &self.to {
             let mut wire = open_line(line)?;
             while let Some(open) = &source
@@ -84,8 +86,9 @@ impl Hand {
                         written = wire.write(&framed(&sample));
                     }
                 };
-                let more = drain(open, take, |odd| {
-                    anstream::eprintln!("{}", paint::bad(odd));
+                let more = drain(open, take, |error| {
+                    anstream::eprintln!("{}", paint::bad(&error));
+                    odd = Some(error);
                 });
                 written
                     .into_diagnostic()
@@ -93,7 +96,8 @@ impl Hand {
                 source = source.filter(|_| more);
                 std::thread::sleep(Duration::from_millis(2));
             }
-            return record.finish();
+            record.finish()?;
+            return odd.map_or(Ok(()), |error| Err(error.into()));
         }
         if source.is_none() && matches!(self.board, Address::Inside) {
             return Err(advice(
@@ -131,7 +135,11 @@ impl Hand {
                     // A unit that cannot be told is lost, which it says itself.
                     drop(unit.sense(&sample));
                 };
-                if !drain(open, take, |odd| screen.say("sensor", &odd)) {
+                let told = |error: SourceError| {
+                    screen.say("sensor", &error.to_string());
+                    odd = Some(error);
+                };
+                if !drain(open, take, told) {
                     source = None;
                     over = Instant::now();
                 }
@@ -161,7 +169,8 @@ impl Hand {
                 break;
             }
         }
-        record.finish()
+        record.finish()?;
+        odd.map_or(Ok(()), |error| Err(error.into()))
     }
 }
 

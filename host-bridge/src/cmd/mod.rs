@@ -33,6 +33,14 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{ending}")
 }
 
+/// How many times as fast as a careful arm a simulated one moves.
+fn haste(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(haste) if (0.01..=1e6).contains(&haste) => Ok(haste),
+        _ => Err("it is a number of 0.01 to 1000000; 1 is a careful arm".into()),
+    }
+}
+
 /// An error in words with what to do about it.
 fn advice(what: impl std::fmt::Display, remedy: impl std::fmt::Display) -> Report {
     miette::miette!(help = remedy.to_string(), "{what}")

@@ -44,7 +44,7 @@ pub struct Play {
     #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
     robot: robot::address::Address,
     /// How many times as fast as a careful arm the simulated one moves
-    #[arg(long, default_value_t = 8.0)]
+    #[arg(long, default_value_t = 8.0, value_parser = super::haste, allow_negative_numbers = true)]
     haste: f32,
     #[command(flatten)]
     trust: Trust,

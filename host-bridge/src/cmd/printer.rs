@@ -5,10 +5,12 @@ mod forbidden;
 mod robot;
 
 use deictic_core::decide::Outcome;
+use miette::Diagnostic;
 use serde_json::{Value, json};
 
 use super::{json, paint};
 use crate::explain::{self, Advice};
+use crate::hand::source::SourceError;
 use crate::language::Spoken;
 use crate::link::Address;
 use crate::report;
@@ -159,9 +161,23 @@ impl Printer {
     }
 
     /// Something odd about a hand sensor; it goes on.
-    pub fn odd(self, what: &str) {
-        self.line("sensor", paint::bad(what));
-        self.object(&json!({ "event": "odd-sensor", "why": what }));
+    pub fn odd(self, error: &SourceError) {
+        let what = error.to_string();
+        let remedy = error.help().map(|help| help.to_string());
+        let remedy = remedy.unwrap_or_default();
+        self.advice("sensor", "odd-sensor", &Advice { what, remedy });
+    }
+
+    /// What was said could not be listened to.
+    pub fn unheard(self, what: impl std::fmt::Display, remedy: String) {
+        let what = what.to_string();
+        self.advice("speech", "unheard", &Advice { what, remedy });
+    }
+
+    /// A scene that is not taken over.
+    pub fn no_scene(self, what: impl std::fmt::Display, remedy: String) {
+        let what = what.to_string();
+        self.advice("scene", "not-understood", &Advice { what, remedy });
     }
 
     /// What was answered to a question.

@@ -36,7 +36,7 @@ pub struct RobotSim {
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
     /// How many times as fast as a careful arm it moves
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, value_parser = super::haste, allow_negative_numbers = true)]
     haste: f32,
     #[command(flatten)]
     files: Files,

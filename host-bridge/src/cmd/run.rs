@@ -61,7 +61,7 @@ pub struct Run {
     #[arg(long, value_name = "ADDRESS", default_value_t = robot::address::Address::Sim)]
     robot: robot::address::Address,
     /// How many times as fast as a careful arm the simulated one moves
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, value_parser = super::haste, allow_negative_numbers = true)]
     haste: f32,
     #[command(flatten)]
     trust: Trust,
@@ -88,7 +88,7 @@ pub struct Run {
     choice: Choice,
     /// How long the unit waits for what is shown after it heard what is said, and the other way
     /// round, in milliseconds; 1000, and 3000 with speech, which is heard a while after it was said
-    #[arg(long, value_name = "MS")]
+    #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u64).range(20..=3_600_000))]
     window: Option<u64>,
     /// Observe what is said and shown through made-up sensors with this much noise
     #[arg(long, value_enum, value_name = "LEVEL")]
@@ -158,6 +158,8 @@ impl Run {
         }
         let once = lines.is_none();
         let mut prompted = false;
+        // Why nobody listens any more.
+        let mut deaf = None;
         loop {
             if let Some(typed) = &lines {
                 match typed.next() {
@@ -177,12 +179,17 @@ impl Run {
             }
             scenes.turn(&mut session);
             pictures.turn(&session);
-            if let Some(open) = &ears {
+            if let Some(open) = &mut ears {
                 open.expect(session.question().is_some());
-                match open.next() {
+                match open.poll() {
                     Heard::Spoken(spoken) => conversation.spoken(&mut session, spoken),
-                    Heard::Nothing(e) => printer.not_understood(&e, e.remedy()),
+                    Heard::Nothing(error) => conversation.unheard(&mut session, &error),
                     Heard::Silence => {}
+                    Heard::Failed(error) => {
+                        ears = None;
+                        deaf = Some(advice(&error, error.remedy()));
+                        conversation.deaf(&mut session);
+                    }
                     Heard::End => {
                         ears = None;
                         conversation.quit();
@@ -191,10 +198,11 @@ impl Run {
             }
             conversation.next(&mut session);
             let take = |sample| drop(session.sense(&sample));
-            if hand
-                .as_ref()
-                .is_some_and(|hand| !drain(hand, take, |odd| printer.odd(&odd)))
-            {
+            let odd = |error| {
+                printer.odd(&error);
+                conversation.fail();
+            };
+            if hand.as_ref().is_some_and(|hand| !drain(hand, take, odd)) {
                 hand = None;
             }
             match interrupts.swap(0, Ordering::Relaxed) {
@@ -213,8 +221,8 @@ impl Run {
             }
             match conversation.ending(&session, once) {
                 // What the hand is still to show belongs to it.
-                Some(_) if hand.is_some() => {}
-                Some(ending) => return Ok(exit_code(ending)),
+                Some(_) if hand.is_some() && deaf.is_none() => {}
+                Some(ending) => return deaf.map_or(Ok(exit_code(ending)), Err),
                 None if session.is_idle() && !once && !prompted && self.prompts() => {
                     anstream::print!("{} ", paint::dim(">"));
                     let _ = std::io::Write::flush(&mut anstream::stdout());

@@ -9,7 +9,7 @@ use miette::Result;
 use super::advice;
 use crate::hand::aim;
 use crate::hand::meaning::HandSetup;
-use crate::hand::source::{Address, Seen, Source};
+use crate::hand::source::{Address, Seen, Source, SourceError};
 use crate::hand::taught::Taught;
 use crate::scene::Tabletop;
 use crate::vocabulary::Lexicon;
@@ -52,12 +52,16 @@ impl Sensing {
 
 /// Takes what a source has, up to a batch, and says of anything odd what it is. `false` when there
 /// will be no more.
-pub fn drain(source: &Source, mut take: impl FnMut(Sample), mut odd: impl FnMut(String)) -> bool {
+pub fn drain(
+    source: &Source,
+    mut take: impl FnMut(Sample),
+    mut odd: impl FnMut(SourceError),
+) -> bool {
     // A flood must not keep the caller from everything else.
     for _ in 0..64 {
         match source.next() {
             Seen::Sample(sample) => take(*sample),
-            Seen::Bad(error) => odd(error.to_string()),
+            Seen::Bad(error) => odd(error),
             Seen::Nothing => return true,
             Seen::End => return false,
         }

@@ -9,6 +9,7 @@ use deictic_core::sentence::GESTURE;
 
 use super::input::{Input, Waiting, parts};
 use super::{AGAIN, Conversation, Ending, likeliest_order};
+use crate::language::speech::SpeechError;
 use crate::language::{LanguageError, Spoken, Utterance, text_of};
 use crate::session::{Order, Session};
 use crate::understanding::{self, Bearing, Understood, bearing, mentions_stop};
@@ -258,6 +259,31 @@ impl Conversation<'_> {
     pub(super) fn not_understood(&mut self, session: &mut Session<'_>, error: &LanguageError) {
         self.printer.not_understood(error, error.remedy());
         self.forbid(session);
+    }
+
+    /// Something was said, and nothing was made of it. When that is not for want of words, what was shown with it is not
+    /// done, and the session has not gone well, however it goes on.
+    pub fn unheard(&mut self, session: &mut Session<'_>, error: &SpeechError) {
+        match error {
+            SpeechError::Language(error @ LanguageError::Empty) => {
+                self.printer.not_understood(error, error.remedy());
+            }
+            SpeechError::Language(error) => self.not_understood(session, error),
+            failed => {
+                self.printer.unheard(failed, failed.remedy());
+                self.forbid(session);
+                self.failed = true;
+            }
+        }
+    }
+
+    /// Nothing more is heard of who speaks, who could not even say stop: the arm stops, and the session ends.
+    pub fn deaf(&mut self, session: &mut Session<'_>) {
+        self.failed = true;
+        self.drop_waiting();
+        // A unit that is not there decides nothing.
+        let _ = session.refuse();
+        self.quit();
     }
 
     fn withheld(&mut self) {

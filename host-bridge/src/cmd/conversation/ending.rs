@@ -51,6 +51,16 @@ impl Conversation<'_> {
     pub fn ending(&self, session: &Session<'_>, once: bool) -> Option<Ending> {
         let idle = session.is_idle() && !session.is_showing() && self.waiting.is_empty();
         let over = self.quits || (once && session.question().is_none());
-        (idle && over).then_some(self.last)
+        let ended = if self.failed {
+            Ending::NotDone
+        } else {
+            self.last
+        };
+        (idle && over).then_some(ended)
+    }
+
+    /// Something went wrong that no command makes good.
+    pub fn fail(&mut self) {
+        self.failed = true;
     }
 }

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use super::source::Source;
 use crate::language::LanguageError;
 
 /// Why nothing was heard.
@@ -14,6 +15,14 @@ pub enum SpeechError {
         /// Which.
         program: String,
         /// What it said.
+        why: String,
+    },
+    /// What speech came from has failed.
+    #[error("nothing is heard from {from} any more: {why}")]
+    Ended {
+        /// What it was.
+        from: Source,
+        /// What it said last.
         why: String,
     },
     /// A file that could not be read or written.
@@ -49,6 +58,15 @@ impl SpeechError {
                 "install Debian's packages pocketsphinx, pocketsphinx-en-us, sox and alsa-utils"
                     .into()
             }
+            Self::Ended { from, .. } => match from {
+                Source::Microphone => "connect a microphone (`arecord -l` lists those that are there), or take another's sound with \
+                     --speech samples:COMMAND"
+                    .into(),
+                Source::Recording(_) => "give a recording that sox reads: `sox FILE -n stat` tells".into(),
+                Source::Samples(_) | Source::Lines(_) => {
+                    "run the command by itself and mend what it says; it is to write until it is ended".into()
+                }
+            },
             Self::File { .. } => "check that the file is there and can be read".into(),
             Self::Model { .. } => {
                 "`cargo xtask setup` installs it; or hear with `--recogniser pocketsphinx`".into()

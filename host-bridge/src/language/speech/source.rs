@@ -3,12 +3,13 @@
 use std::fmt;
 use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStderr, Command, Stdio};
 use std::str::FromStr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use super::error::SpeechError;
 use super::recogniser::{Expected, Recogniser};
@@ -84,6 +85,8 @@ pub enum Heard {
     Nothing(SpeechError),
     /// Nothing yet.
     Silence,
+    /// There will be no more, as what it came from has failed.
+    Failed(SpeechError),
     /// There will be no more.
     End,
 }
@@ -93,7 +96,13 @@ pub struct Ears {
     heard: Receiver<Result<Spoken, SpeechError>>,
     asked: Arc<AtomicBool>,
     program: Option<Child>,
+    source: Source,
+    /// What the program said on its standard error, a line at a time, until that is closed.
+    said: Receiver<String>,
 }
+
+/// How long a program that has closed its output may take to end.
+const ENDING: Duration = Duration::from_secs(2);
 
 impl Ears {
     /// Begins to listen. Sound goes to the recogniser, which lines have no need of.
@@ -124,6 +133,7 @@ impl Ears {
         };
         let output = program.stdout.take().map(BufReader::new);
         let name = source.to_string();
+        let said = lines_of(program.stderr.take());
         let (to, heard) = channel();
         let asked = Arc::new(AtomicBool::new(false));
         if let Some(output) = output {
@@ -139,6 +149,8 @@ impl Ears {
             heard,
             asked,
             program: Some(program),
+            source: source.clone(),
+            said,
         })
     }
 
@@ -148,14 +160,63 @@ impl Ears {
     }
 
     /// What has come, without waiting.
-    pub fn next(&self) -> Heard {
+    pub fn poll(&mut self) -> Heard {
         match self.heard.try_recv() {
             Ok(Ok(spoken)) => Heard::Spoken(spoken),
             Ok(Err(error)) => Heard::Nothing(error),
             Err(TryRecvError::Empty) => Heard::Silence,
-            Err(TryRecvError::Disconnected) => Heard::End,
+            Err(TryRecvError::Disconnected) => self.ended(),
         }
     }
+
+    /// Looks how the program ended whose output has.
+    fn ended(&mut self) -> Heard {
+        let Some(mut program) = self.program.take() else {
+            return Heard::End;
+        };
+        let until = Instant::now() + ENDING;
+        let status = loop {
+            match program.try_wait() {
+                Ok(None) if Instant::now() < until => thread::sleep(Duration::from_millis(5)),
+                Ok(Some(status)) => break status,
+                _ => {
+                    self.program = Some(program);
+                    return Heard::End;
+                }
+            }
+        };
+        if status.success() {
+            return Heard::End;
+        }
+        let mut last = None;
+        while let Ok(line) = self.said.recv_timeout(ENDING) {
+            last = Some(line);
+        }
+        Heard::Failed(SpeechError::Ended {
+            from: self.source.clone(),
+            why: last.unwrap_or_else(|| status.to_string()),
+        })
+    }
+}
+
+/// The lines of a program's standard error that say something, which go to this one's as well.
+fn lines_of(errors: Option<ChildStderr>) -> Receiver<String> {
+    let (to, lines) = channel();
+    if let Some(errors) = errors {
+        thread::spawn(move || {
+            for line in BufReader::new(errors).split(b'\n').map_while(Result::ok) {
+                let line = String::from_utf8_lossy(&line).trim().to_owned();
+                if line.is_empty() {
+                    continue;
+                }
+                eprintln!("{line}");
+                if to.send(line).is_err() {
+                    return;
+                }
+            }
+        });
+    }
+    lines
 }
 
 impl Drop for Ears {
@@ -180,6 +241,7 @@ fn microphone() -> Result<Child, SpeechError> {
 
 fn start(program: &str, command: &mut Command) -> Result<Child, SpeechError> {
     let command = command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let command = command.stderr(Stdio::piped());
     command.spawn().map_err(|e| SpeechError::Program {
         program: program.to_owned(),
         why: e.to_string(),
@@ -301,6 +363,29 @@ mod tests {
             .map(|h| h.as_ref().ok().map(|s| s.alternatives[0].0.as_str()))
             .collect();
         assert_eq!(texts, [Some("pick the cup"), Some("stop"), None, None]);
+    }
+
+    #[test]
+    fn a_program_that_fails_is_told_from_one_that_ends() {
+        let end = |command: &str| {
+            let source = Source::Lines(command.to_owned());
+            let mut ears =
+                Ears::open(&source, || unreachable!("lines need no recogniser")).unwrap();
+            loop {
+                match ears.poll() {
+                    Heard::Silence => thread::sleep(Duration::from_millis(1)),
+                    Heard::Spoken(_) => {}
+                    other => return (other, ears.poll()),
+                }
+            }
+        };
+        assert!(matches!(end("echo pick the cup"), (Heard::End, Heard::End)));
+        let (failed, then) = end("echo pick the cup; echo no device >&2; exit 3");
+        assert!(matches!(then, Heard::End));
+        let Heard::Failed(SpeechError::Ended { why, .. }) = failed else {
+            panic!("{failed:?}");
+        };
+        assert_eq!(why, "no device");
     }
 
     #[test]

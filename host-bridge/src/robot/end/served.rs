@@ -70,6 +70,12 @@ impl Listener {
     pub fn open(way: &Way) -> Result<Self, ListenError> {
         let (Way::Line(Line::Tcp { host, port }) | Way::Slcan(Line::Tcp { host, port })) = way
         else {
+            // It is opened anew whenever it fails, but one that is not there is a mistake.
+            match way {
+                Way::Can(interface) => drop(link::open_interface(interface)?),
+                Way::Flexible(interface) => drop(link::open_flexible_interface(interface)?),
+                Way::Slcan(line) | Way::Line(line) => drop(link::open_line(line)?),
+            }
             return Ok(Self::At(way.clone()));
         };
         let ip = host.trim_matches(['[', ']']).parse::<IpAddr>();
