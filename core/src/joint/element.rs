@@ -24,6 +24,13 @@ impl Seen {
         }
     }
 
+    /// Its place among 8 words of 32 bits, and its bit there.
+    #[inline(always)]
+    pub fn place(self) -> (usize, u32) {
+        let bit = 1_u32.wrapping_shl(u32::from(self.at));
+        (usize::from(self.at.wrapping_shr(5)), bit)
+    }
+
     /// What it costs when this was to be reported.
     #[inline(always)]
     pub fn cost(self, expected: u8) -> Costs {

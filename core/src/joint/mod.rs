@@ -7,8 +7,8 @@
 //! ```
 //!
 //! * [`word`] and its [`element`]s: how well an option explains a word, at each of [`LEVELS`] noise
-//!   levels, with rivals (options that are raised beside the one that was meant). Whole numbers: see
-//!   [`cost`].
+//!   levels, with [`rivals`] (options that are raised beside the one that was meant). Whole numbers:
+//!   see [`cost`].
 //! * [`sensors`]: learned confusion tables; without one a plain sensor is assumed. A sensor may also
 //!   say by itself how likely what it saw is under each option; nothing of that is noise then.
 //! * [`fit`]: how well a thing meets a requirement, as the product of its feature likelihoods; and
@@ -40,6 +40,7 @@ mod likelihoods;
 mod outcome;
 pub mod posterior;
 mod reports;
+pub mod rivals;
 pub mod sensors;
 mod solving;
 pub mod survey;

@@ -1,29 +1,18 @@
 //! How well every option explains a word: the noise that it takes to report these likelihoods when
 //! that option is meant.
 //!
-//! An element of a word is explained by what the sensor reports when option `k` is meant, or as a
-//! *rival*: raised beside the one that was meant, as if it were named itself. Rivals are scattered
-//! (a few anywhere), or all actions of another signature are raised at once, as when someone
-//! shows `pick` with a hand that says `put into` as well (the paper's `D_arity`).
+//! An element of a word is explained by what the sensor reports when option `k` is meant, or as one of
+//! its [rivals](super::rivals).
 //!
 //! On a Cortex-M4F an element costs about 25 instructions per option, and 20 more where it may be
 //! raised.
 
 use super::cost::{Costs, MOST};
 use super::element::{Element, Seen};
+use super::rivals::{NOT_RAISED, RAISED, RIVAL, RIVAL_ACTION, counted};
 use super::sensors::Rows;
 use crate::math::larger;
 use crate::vocabulary::Action;
-
-/// How much a rival costs beside an element that is none: 19 to 1 among actions ...
-const RIVAL_ACTION: Costs = Costs::all(136);
-/// ... and 9 to 1 in other words.
-const RIVAL: Costs = Costs::all(101);
-/// What an element of another signature costs that is raised with all of them, beside one without
-/// any rivals: 95 to 80 ...
-const RAISED: Costs = Costs::all(8);
-/// ... and one that is not raised for all that: 95 to 20.
-const NOT_RAISED: Costs = Costs::all(72);
 
 /// How much less likely any option is that a word is about another one altogether, than the best of
 /// those: 1 to 1000.
@@ -76,7 +65,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Reads every element of a flat sensor, which reports `elsewhere` of all but what is meant; gives
-    /// what they cost when none is named.
+    /// what they cost when none is named. Given are those that count of actions, which may be raised.
     #[inline(always)]
     fn prepare_flat(
         &self,
@@ -84,49 +73,59 @@ impl<'a> Reading<'a> {
         elements: &mut [Element],
         named: &mut [Costs],
         rival: Costs,
-        raises: bool,
+        counted: Option<u64>,
     ) -> Costs {
         let mut sum = Costs::ZERO;
+        let mut left = counted.unwrap_or(u64::MAX);
         let elements = elements.iter_mut().zip(self.likelihoods);
         let elements = elements.zip(named).zip(self.expected());
         for (((element, &likelihood), named), expected) in elements {
             let seen = Seen::new(likelihood);
             let (own, cost) = (seen.cost(expected), seen.cost(elsewhere));
-            let other = cost.least(own.plus(rival));
-            element.own = own;
-            element.other = other.bar();
-            if raises {
-                let raised = cost.plus(NOT_RAISED).least(own.plus(RAISED));
-                element.raised = raised.bar();
-            }
             put(named, own, self.first);
+            let mut other = cost.least(own.plus(rival));
+            element.own = own;
+            if counted.is_some() {
+                let counts = left & 1 != 0;
+                left = left.wrapping_shr(1);
+                let raised = cost.plus(NOT_RAISED).least(own.plus(RAISED));
+                element.raised = raised.only_if(counts).bar();
+                other = other.only_if(counts);
+            }
+            element.other = other.bar();
             sum = sum.plus(other);
         }
         sum
     }
 
     /// Reads every element of a sensor that is not flat; gives what they cost when they are named
-    /// themselves.
+    /// themselves. Given are those that count of actions, which may be raised.
     #[inline(always)]
     fn prepare(
         &self,
         elements: &mut [Element],
         named: &mut [Costs],
         rival: Costs,
-        raises: bool,
+        counted: Option<u64>,
     ) -> Costs {
         let mut sum = Costs::ZERO;
+        let mut left = counted.unwrap_or(u64::MAX);
         let elements = elements.iter_mut().zip(self.likelihoods);
         let elements = elements.zip(named).zip(self.expected());
         for (((element, &likelihood), named), expected) in elements {
             let seen = Seen::new(likelihood);
-            let own = seen.cost(expected);
-            element.seen = seen;
-            element.other = own.plus(rival).bar();
-            if raises {
-                element.raised = NOT_RAISED.below(own.plus(RAISED).bar()).bar();
-            }
+            let mut own = seen.cost(expected);
             put(named, own, self.first);
+            element.seen = seen;
+            let mut other = own.plus(rival);
+            if counted.is_some() {
+                let counts = left & 1 != 0;
+                left = left.wrapping_shr(1);
+                let raised = NOT_RAISED.below(own.plus(RAISED).bar());
+                element.raised = raised.only_if(counts).bar();
+                (own, other) = (own.only_if(counts), other.only_if(counts));
+            }
+            element.other = other.bar();
             sum = sum.plus(own);
         }
         sum
@@ -138,7 +137,7 @@ impl<'a> Reading<'a> {
 pub fn parameter(reading: &Reading<'_>, room: &mut Room<'_>, heard: &mut [Costs]) {
     let mut best = Costs::all(MOST);
     if let Some(elsewhere) = reading.rows.elsewhere {
-        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL, false);
+        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL, None);
         for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
             let mut sum = all;
             if let Some(named) = room.elements.get(usize::from(k)) {
@@ -149,7 +148,7 @@ pub fn parameter(reading: &Reading<'_>, room: &mut Room<'_>, heard: &mut [Costs]
             *place = sum;
         }
     } else {
-        let own = reading.prepare(room.elements, room.named, RIVAL, false);
+        let own = reading.prepare(room.elements, room.named, RIVAL, None);
         let all = own.plus(RIVAL.times(room.elements.len()));
         for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
             let mut sum = all;
@@ -179,10 +178,17 @@ pub fn action(
 ) {
     let (mut best, mut best_raised) = (Costs::all(MOST), Costs::all(MOST));
     let (mut of, mut beside) = (None, Costs::ZERO);
+    let counted = counted(reading.likelihoods, reading.live);
     let sums = room.sums.iter_mut().zip(&mut *room.raised);
     let live = reading.live.iter().zip(sums);
     if let Some(elsewhere) = reading.rows.elsewhere {
-        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL_ACTION, true);
+        let all = reading.prepare_flat(
+            elsewhere,
+            room.elements,
+            room.named,
+            RIVAL_ACTION,
+            Some(counted),
+        );
         for (&k, (plain, raised)) in live {
             let k = usize::from(k);
             let (Some(named), Some(action)) = (room.elements.get(k), actions.get(k)) else {
@@ -207,8 +213,8 @@ pub fn action(
             (best, best_raised) = (best.least(*plain), best_raised.least(*raised));
         }
     } else {
-        let own = reading.prepare(room.elements, room.named, RIVAL_ACTION, true);
-        let all = own.plus(RIVAL_ACTION.times(room.elements.len()));
+        let own = reading.prepare(room.elements, room.named, RIVAL_ACTION, Some(counted));
+        let all = own.plus(RIVAL_ACTION.times(counted.count_ones() as usize));
         for (&k, (plain, raised)) in live {
             let k = usize::from(k);
             let Some(action) = actions.get(k) else {
@@ -217,12 +223,17 @@ pub fn action(
             let signature = action.signature.compulsory;
             if of != Some(signature) {
                 of = Some(signature);
-                let of_it = |action: &&Action| action.signature.compulsory == signature;
-                let same = actions.iter().filter(of_it).count();
-                let others = actions.len().saturating_sub(same);
-                beside = own
-                    .plus(RIVAL_ACTION.times(same))
-                    .plus(RAISED.times(others));
+                beside = own;
+                let mut left = counted;
+                for action in actions {
+                    let rival = if action.signature.compulsory == signature {
+                        RIVAL_ACTION
+                    } else {
+                        RAISED
+                    };
+                    beside = beside.plus(rival.only_if(left & 1 != 0));
+                    left = left.wrapping_shr(1);
+                }
             }
             let (mut sum, mut other) = (all, beside);
             let row = room.elements.iter().zip(reading.rows.of(k)).zip(actions);

@@ -42,7 +42,7 @@ pub const SAMPLES: u32 = 15_000;
 
 /// [`Bench::hash`] over all [`SAMPLES`], from [`START`]. A change means that some decision has
 /// changed somewhere, if only in its last bit.
-pub const GOLDEN: u64 = 0xd40e_76f0_bb17_8b98;
+pub const GOLDEN: u64 = 0x25e8_a358_2ed9_11f8;
 
 /// Where a hash begins: the offset of FNV-1a.
 pub const START: u64 = 0xcbf2_9ce4_8422_2325;

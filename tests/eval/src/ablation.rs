@@ -38,6 +38,9 @@ pub enum Part {
     Scene,
     /// The sensors' tables: each is taken for a plain one.
     Sensors,
+    /// That actions which read alike share one error: they are told apart by a 255th. Those that were clipped to 0 or 1
+    /// stay there.
+    Shared,
     /// The noise that was heard, for the confidence: it is always told the middle of all levels.
     Noise,
     /// What the confidence knows beside the posterior and the noise: how sure the action is, and how
@@ -158,6 +161,11 @@ impl Part {
             };
             (seen.objects, seen.storages) = (all(1), all(2));
         }
+        if self == Self::Shared {
+            for words in &mut seen.words {
+                words[0].as_deref_mut().map(tell_apart);
+            }
+        }
         seen
     }
 
@@ -207,6 +215,21 @@ impl Part {
             (answer.executed, answer.likeliest) = (executed, likeliest);
         }
         answer
+    }
+}
+
+/// Moves likelihoods between 0 and 1 by 255ths towards the middle until no two are alike.
+fn tell_apart(likelihoods: &mut [f32]) {
+    let alike = |a: f32, b: f32| (a * 255.0).round() == (b * 255.0).round();
+    for i in 1..likelihoods.len() {
+        let (before, rest) = likelihoods.split_at_mut(i);
+        let own = &mut rest[0];
+        let step = if *own > 0.5 { -1.0 } else { 1.0 } / 255.0;
+        if *own > 0.0 && *own < 1.0 {
+            while before.iter().any(|other| alike(*other, *own)) {
+                *own += step;
+            }
+        }
     }
 }
 

@@ -43,6 +43,8 @@ pub struct Cell {
     pub name: String,
     /// The noise level's number, 0 to 4.
     pub level: usize,
+    /// Whether the freer generator made it.
+    pub free: bool,
     /// Its samples.
     pub samples: Vec<Believed>,
 }

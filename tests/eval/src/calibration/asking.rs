@@ -37,6 +37,10 @@ const AIM: [f64; 5] = [0.0, 0.99, 0.98, 0.90, 0.77];
 /// What it is worth to execute without a question, beside executing at all.
 const AT_ONCE: f64 = 0.2;
 
+/// While it can ask, nothing is executed whose chance to be wrong is so many times the tolerated risk, even where the risk of
+/// all commands together would bear it.
+const BOLD: f64 = 5.0;
+
 /// Questions that the shapes are fitted with.
 const USUAL: usize = 2;
 
@@ -170,7 +174,9 @@ pub fn fit(cells: &[Cell], tolerated: f64) -> Cuts {
             })
         })
     }));
-    let enough = ((1.0 - tolerated) / tolerated).ln();
+    let logit = |wrong: f64| ((1.0 - wrong) / wrong).ln();
+    let enough = logit(tolerated);
+    let least = [logit((BOLD * tolerated).min(0.5)), 0.0];
     let starts = [
         [[3.0; KNOTS]; 2],
         [[4.0; KNOTS], [2.0; KNOTS]],
@@ -185,7 +191,7 @@ pub fn fit(cells: &[Cell], tolerated: f64) -> Cuts {
             for direction in &directions {
                 let next: Cuts = std::array::from_fn(|i| {
                     std::array::from_fn(|j| {
-                        (cuts[i][j] + step * direction[i][j]).clamp(0.0, enough)
+                        (cuts[i][j] + step * direction[i][j]).clamp(least[i], enough)
                     })
                 });
                 let value = score(&next);

@@ -17,9 +17,16 @@ const WEIGHTS: [f64; 5] = [1.0, 1.0, 1.0, 1.0, 1.4];
 /// How strongly slopes are held at 1, per sample: only where a class has hardly any.
 const RIDGE: f64 = 1e-5;
 
-/// What share of each level should be executed, and how much what lacks of it counts.
-const AIM: [f64; 5] = [0.0, 0.98, 0.985, 0.67, 0.53];
-const LACKING: [f64; 5] = [3.0, 3.0, 12.0, 3.0, 3.0];
+/// How much a sample of the freer generator counts: enough that the confidence has seen such scenes, so little that what
+/// it says of the others still means what it says.
+const FREE: f64 = 0.5;
+
+/// What share of each level should be executed; what lacks of it counts fivefold.
+const AIM: [f64; 5] = [0.0, 0.978, 1.0, 0.66, 0.53];
+const LACKING: f64 = 5.0;
+
+/// What it is worth to execute more at each level. Of n2 least is lost to the noise and most to caution.
+const WORTH: [f64; 5] = [0.0, 0.05, 1.0, 0.05, 0.05];
 
 /// How much of the tolerated risk the shape may have on the samples it is fitted to.
 const PART: f64 = 0.92;
@@ -42,9 +49,10 @@ pub fn scaling(cells: &[Cell]) -> Table {
         cuts: [[0.0; KNOTS]; RISKS.len()],
     };
     for kind in 0..KINDS {
-        let weighed = cells
-            .iter()
-            .flat_map(|cell| cell.samples.iter().map(|s| (WEIGHTS[cell.level.min(4)], s)));
+        let weighed = cells.iter().flat_map(|cell| {
+            let weight = WEIGHTS[cell.level.min(4)] * if cell.free { FREE } else { 1.0 };
+            cell.samples.iter().map(move |s| (weight, s))
+        });
         let rows: Vec<_> = weighed
             .filter(|(_, sample)| sample.belief.kind() == kind)
             .map(|(weight, s)| (weight, row(&s.belief), f64::from(u8::from(s.right))))
@@ -145,10 +153,9 @@ pub fn shape(cells: &[Cell], table: &Table, tolerated: f64) -> [f64; KNOTS] {
         let lacks: f64 = AIM
             .iter()
             .zip(&executed)
-            .zip(LACKING)
-            .map(|((aim, e), weight)| weight * (aim - e).max(0.0))
+            .map(|(aim, e)| (aim - e).max(0.0))
             .sum();
-        executed.iter().sum::<f64>() - lacks - 20.0 * (risk / tolerated - PART).max(0.0)
+        dot(&WORTH, &executed) - LACKING * lacks - 20.0 * (risk / tolerated - PART).max(0.0)
     };
     let mut rng = ChaCha8Rng::seed_from_u64(0);
     let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };

@@ -83,6 +83,7 @@ mod tests {
         let cell = |n: usize| Cell {
             name: String::new(),
             level: 1,
+            free: false,
             samples: (0..n)
                 .map(|i| Believed {
                     belief: Belief {

@@ -162,6 +162,7 @@ fn cells(catalogue: &Catalogue, recipe: &Recipe, n: usize, seed: u64) -> anyhow:
             cells.push(Cell {
                 name: set.name.clone(),
                 level: level.number(),
+                free: false,
                 samples: field.beliefs()?,
             });
         }
@@ -182,6 +183,7 @@ fn free_cells(
         cells.push(Cell {
             name: set.name.clone(),
             level: level.number(),
+            free: true,
             samples: field.beliefs()?,
         });
     }
