@@ -65,7 +65,7 @@ pub enum Outcome<const C: usize> {
     Ask(Question),
     /// Nothing was understood: ask for a repetition.
     Repeat,
-    /// As many questions as may be were asked, and it still is not clear: the person has to start over.
+    /// As many questions as may be were asked, or nothing is left to ask, and it still is not clear: the person has to start over.
     GiveUp,
 }
 

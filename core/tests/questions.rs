@@ -8,10 +8,11 @@ use bench::*;
 use common::*;
 use deictic_core::board::{Sentence, ToHost, ToUnit, Word};
 use deictic_core::category::Category;
-use deictic_core::decide::{Kind, Outcome, Question};
-use deictic_core::profile::Profile;
+use deictic_core::decide::{Kind, Outcome, Question, Reason};
+use deictic_core::profile::{Profile, Threshold};
 use deictic_core::protocol::message::*;
 use deictic_core::sentence::{GESTURE, LANGUAGE};
+use proptest::prelude::*;
 
 /// "Pick" or "push", hardly more the one than the other, and the can clearly.
 fn unsure(modality: u8) -> Sentence {
@@ -166,4 +167,69 @@ fn a_yes_to_what_has_gone_moves_nothing() {
     let heard = decided(&answer(&mut bench, number, &[1.0, 0.0]));
     assert_eq!(heard.scene, 2);
     assert_eq!(executed(&heard.decision), None);
+}
+
+/// Words that are hardly more one thing than another, by how much.
+fn torn(modality: u8, lead: f32) -> Sentence {
+    let (mut actions, mut objects) = ([0.4; 9], [0.4; 5]);
+    for option in [PICK, PUSH] {
+        actions[usize::from(option)] = 0.8;
+    }
+    for option in [CAN, CUP] {
+        objects[usize::from(option)] = 0.8;
+    }
+    actions[usize::from(PICK)] += lead;
+    objects[usize::from(CAN)] += lead;
+    let word = |category, likelihoods: &[f32]| Word::certain(category, likelihoods).unwrap();
+    let words = [
+        word(Category::ACTION, &actions),
+        word(Category::OBJECT, &objects),
+    ];
+    sentence(modality, &words)
+}
+
+proptest! {
+    /// Whoever answers clearly is not asked the same again, however unsure the unit was, and it comes to an end.
+    #[test]
+    fn what_was_clearly_answered_is_not_asked_again(
+        questions in 1_u8..=4,
+        rate in 0.003_f32..0.5,
+        leads in proptest::array::uniform2(-0.3_f32..0.2),
+        answers in proptest::collection::vec((0_usize..9, 0.0_f32..0.05), 5),
+    ) {
+        let mut bench = Bench::ready();
+        let threshold = Threshold::Risk { rate };
+        bench.say(&ToUnit::Configure(Configuration {
+            profile: Profile { questions, threshold, ..Profile::JOINT },
+            ..Configuration::DEFAULT
+        }));
+        bench.tell(&torn(LANGUAGE, leads[0]));
+        let mut heard = bench.tell(&torn(GESTURE, leads[1]));
+        let (mut confirmed, mut named) = (Vec::new(), Vec::new());
+        for (option, others) in answers {
+            let now = decided(&heard);
+            let Outcome::Ask(question) = &now.decision.outcome else {
+                return Ok(());
+            };
+            let options = match question.kind {
+                Kind::Confirm => {
+                    let intent = now.decision.best.clone();
+                    prop_assert!(!confirmed.contains(&intent), "{:?}", intent);
+                    confirmed.push(intent);
+                    2
+                }
+                Kind::Which => {
+                    let about = question.category;
+                    let clear = question.reason == Reason::TooClose;
+                    prop_assert!(!(clear && named.contains(&about)), "{:?}", about);
+                    named.push(about);
+                    vocabulary().options_of(about)
+                }
+            };
+            let mut likelihoods = vec![others; options];
+            likelihoods[option % options] = 1.0;
+            heard = answer(&mut bench, now.number, &likelihoods);
+        }
+        prop_assert!(!matches!(decided(&heard).decision.outcome, Outcome::Ask(_)));
+    }
 }

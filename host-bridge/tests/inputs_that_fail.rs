@@ -85,7 +85,7 @@ fn a_source_of_speech_that_fails_has_nothing_done_and_ends_the_session() {
 fn a_recogniser_that_fails_has_the_gesture_withheld() {
     let programs = ["sox", "espeak-ng", "pocketsphinx_batch"];
     let there = |program: &&str| Command::new(program).arg("--version").output().is_ok();
-    if !programs.iter().all(|p| there(&p)) || !Path::new(MODEL).exists() {
+    if !programs.iter().all(there) || !Path::new(MODEL).exists() {
         eprintln!("skipped: espeak-ng, sox or pocketsphinx is not installed");
         return;
     }

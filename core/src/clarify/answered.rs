@@ -3,7 +3,7 @@
 //! The posterior weighs only what can be done. When the thing that the person named or said yes to has
 //! gone meanwhile, something else would be the likeliest by default: then it is asked about.
 
-use crate::category::Category;
+use crate::category::{Category, CategorySet};
 use crate::decision::{FEASIBLE, Reason};
 use crate::intent::Intent;
 use crate::joint::fit::product;
@@ -39,6 +39,46 @@ pub fn vouched<const W: usize, const C: usize, const N: usize>(
             word.category() == Some(category)
                 && math::argmax(word.likelihoods()) == Some(usize::from(chosen))
         })
+}
+
+/// By how much the likeliest of what an answer may have been leads when it was clear: by this much at the first two noise
+/// levels, by chance in one answer of six at the third.
+const CLEAR: f32 = 0.95;
+
+/// Whether it was clearly answered already whether this very intent is meant.
+#[must_use]
+pub fn confirmed<const W: usize, const C: usize, const N: usize>(
+    observations: &Observations<W, C, N>,
+    intent: &Intent<C>,
+) -> bool {
+    let asked = Triple::of(intent);
+    let answers = observations.confirmations();
+    answers.iter().any(|answer| {
+        let [yes, no] = answer.likelihoods;
+        answer.asked == asked && (yes - no >= CLEAR || no - yes >= CLEAR)
+    })
+}
+
+/// The categories of which an option was clearly named in an answer.
+#[must_use]
+pub fn named<const W: usize, const C: usize, const N: usize>(
+    observations: &Observations<W, C, N>,
+) -> CategorySet {
+    let answers = observations.get(ANSWER);
+    let words = answers.into_iter().flat_map(|answer| answer.words());
+    let clear = words.filter(|word| {
+        let likelihoods = word.likelihoods();
+        let first = math::argmax(likelihoods);
+        let (mut led, mut lead) = (0.0, 0.0);
+        for (option, p) in likelihoods.iter().enumerate() {
+            match Some(option) == first {
+                true => lead = *p,
+                false => led = math::larger(led, *p),
+            }
+        }
+        lead - led >= CLEAR
+    });
+    clear.filter_map(|word| word.category()).collect()
 }
 
 /// What was clearly answered, at this noise level, and is not to be had: its category, and why.

@@ -97,7 +97,7 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
     trace.belief.posterior *= others;
     let question = match doubt(situation, profile, &found, best, trace) {
         Some((category, Reason::Missing)) => ask(Some(best), category, Reason::Missing, trace),
-        Some((category, reason)) => about(best, trace, category, reason),
+        Some((category, reason)) => about(best, situation.observations, trace, category, reason),
         None => {
             let suffices = match profile.threshold {
                 Threshold::Risk { rate } => {
@@ -111,7 +111,10 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
                 decision.outcome = Outcome::Execute(best.clone());
                 return;
             }
-            let Some(question) = choose(best, trace) else {
+            let Some(question) = choose(best, situation.observations, trace) else {
+                if situation.observations.answers() > 0 {
+                    decision.outcome = Outcome::GiveUp;
+                }
                 return;
             };
             question

@@ -199,7 +199,7 @@ impl Printer {
                     Outcome::Execute(intent) => paint::good(explain::intent(intent, lexicon)),
                     Outcome::Ask(_) => paint::ask("to ask"),
                     Outcome::Repeat => paint::bad("nothing was understood; say and show it again"),
-                    Outcome::GiveUp => paint::bad("it still is not clear; please start over"),
+                    Outcome::GiveUp => paint::bad(asking::gives_up(decision, lexicon)),
                 };
                 self.line("decided", text);
                 let report = report::decision(decision, heard.as_ref(), table.scene(), lexicon);

@@ -142,11 +142,12 @@ impl<'a> Talk<'a> {
                 right: best == Some(record.truth),
                 executes,
             });
-            if left == 0 || (executes && !to_the_end) {
+            let given_up = matches!(decision.outcome, Outcome::GiveUp);
+            if left == 0 || given_up || (executes && !to_the_end) {
                 return Ok(looks);
             }
             left -= 1;
-            let question = strategy.question(&decision, &trace, rng);
+            let question = strategy.question(&decision, sample.observations(), &trace, rng);
             match question {
                 Put::Confirm => {
                     self.confirm(&mut sample, &decision, record.truth, rng);

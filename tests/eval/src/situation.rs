@@ -116,6 +116,12 @@ impl Prepared {
             .map_err(|e| anyhow::anyhow!("the core refuses an answer: {e:?}"))
     }
 
+    /// All that was said, shown and answered.
+    #[must_use]
+    pub fn observations(&self) -> &board::Observations {
+        &self.observations
+    }
+
     /// Adds a yes or a no.
     pub fn confirm(&mut self, confirmation: Confirmation) {
         self.observations.confirm(confirmation);

@@ -1,9 +1,12 @@
 //! Who listens, and what is said to a question besides its answer.
 
+use deictic_core::large::Decision;
 use serde_json::json;
 
 use super::Printer;
 use crate::cmd::paint;
+use crate::explain;
+use crate::vocabulary::Lexicon;
 
 impl Printer {
     /// Which recogniser hears what is spoken.
@@ -31,4 +34,13 @@ impl Printer {
         self.line("asks", paint::ask(text));
         self.object(&json!({ "event": "asked-again", "text": text }));
     }
+}
+
+/// Why no more is asked.
+pub(super) fn gives_up(decision: &Decision, lexicon: &Lexicon) -> String {
+    let meant = decision.best.as_ref().map_or_else(
+        || "what is meant".to_owned(),
+        |best| format!("whether \"{}\" is meant", explain::intent(best, lexicon)),
+    );
+    format!("it still is not sure enough {meant}, and no more may be asked; please start over")
 }

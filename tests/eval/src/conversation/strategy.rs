@@ -51,6 +51,7 @@ impl Strategy {
     pub(super) fn question(
         self,
         decision: &Decision<{ board::CATEGORIES }>,
+        observations: &board::Observations,
         trace: &board::Trace,
         rng: &mut impl Rng,
     ) -> Put {
@@ -61,7 +62,7 @@ impl Strategy {
             Self::Gain => {
                 let question = match &decision.outcome {
                     Outcome::Ask(question) => Some(question.clone()),
-                    _ => choose(best, trace),
+                    _ => choose(best, observations, trace),
                 };
                 match question {
                     None => Put::Over,
