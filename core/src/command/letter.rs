@@ -3,8 +3,7 @@
 
 use crate::protocol::link::{Link, Opening};
 
-use super::Packet;
-use super::seal::SEALED;
+use super::{Packet, SEALED};
 
 /// One end of such a stream.
 pub type Letters = Link<80>;

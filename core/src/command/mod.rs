@@ -27,6 +27,9 @@ pub const LONGEST: usize = 56 + seal::ROOM;
 /// Bytes of the longest message that goes into one classic CAN frame, whose last byte is a check.
 pub const SHORT: usize = 7;
 
+/// Added to the identifier of a message that is sealed ([`seal`]).
+pub const SEALED: u16 = 0x8000;
+
 /// How often either side shows that it lives.
 pub const BEAT: Micros = Micros::from_millis(100);
 

@@ -3,13 +3,15 @@
 
 mod errors;
 mod faults;
+mod fitness;
 mod question;
 pub mod reasons;
 mod shown;
 
 pub use errors::{profile_error, scene_error, sentence_error, vocabulary_error};
 pub use faults::{distrust, fault, loss, sensor_error};
-pub use question::{amount, because, intent, question};
+pub use fitness::because;
+pub use question::{amount, intent, question};
 pub use shown::sentence;
 
 /// An error in words.

@@ -6,8 +6,7 @@ use heapless::Vec;
 
 use super::{CARRIED, CRC_16, FIRST, NEXT, Sender, WHOLE, check_of};
 use crate::can::BusFrame;
-use crate::command::seal::SEALED;
-use crate::command::{Packet, SHORT};
+use crate::command::{Packet, SEALED, SHORT};
 
 /// The frames of kind `F` that carry a message.
 pub struct Frames<F> {

@@ -15,13 +15,11 @@ mod conversation;
 use heapless::Vec;
 
 use super::Packet;
+pub use super::SEALED;
 use super::message::{Challenge, FromRobot, Prove, ToRobot};
 use super::parcel::Sender;
 use crate::protocol::seal::{Key, Nonces, TAG, Way};
 use conversation::{Conversation, Why};
-
-/// Added to the identifier of a sealed message.
-pub const SEALED: u16 = 0x8000;
 
 /// Bytes of a tag on a CAN bus: a guess is right once in 4.3e9.
 pub const ON_A_BUS: usize = 4;
