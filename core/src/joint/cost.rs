@@ -89,15 +89,6 @@ impl Costs {
         Self([least(a, c), least(b, d)])
     }
 
-    /// These costs, or none.
-    #[must_use]
-    #[inline(always)]
-    pub const fn only_if(self, condition: bool) -> Self {
-        let Self([a, b]) = self;
-        let mask = (condition as u32).wrapping_neg();
-        Self([a & mask, b & mask])
-    }
-
     /// To be compared with often.
     #[must_use]
     #[inline(always)]

@@ -65,4 +65,10 @@ impl Element {
         other: Bar::ZERO,
         raised: Bar::ZERO,
     };
+
+    /// Whether it was not left out ([`super::rivals::leave_out`]).
+    #[inline(always)]
+    pub fn counts(&self) -> bool {
+        self.other != Bar::ZERO
+    }
 }

@@ -9,7 +9,7 @@
 
 use super::cost::{Costs, MOST};
 use super::element::{Element, Seen};
-use super::rivals::{NOT_RAISED, RAISED, RIVAL, RIVAL_ACTION, counted};
+use super::rivals::{NOT_RAISED, RAISED, RIVAL, RIVAL_ACTION, leave_out, repeated};
 use super::sensors::Rows;
 use crate::math::larger;
 use crate::vocabulary::Action;
@@ -65,7 +65,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Reads every element of a flat sensor, which reports `elsewhere` of all but what is meant; gives
-    /// what they cost when none is named. Given are those that count of actions, which may be raised.
+    /// what they cost when none is named.
     #[inline(always)]
     fn prepare_flat(
         &self,
@@ -73,59 +73,49 @@ impl<'a> Reading<'a> {
         elements: &mut [Element],
         named: &mut [Costs],
         rival: Costs,
-        counted: Option<u64>,
+        raises: bool,
     ) -> Costs {
         let mut sum = Costs::ZERO;
-        let mut left = counted.unwrap_or(u64::MAX);
         let elements = elements.iter_mut().zip(self.likelihoods);
         let elements = elements.zip(named).zip(self.expected());
         for (((element, &likelihood), named), expected) in elements {
             let seen = Seen::new(likelihood);
             let (own, cost) = (seen.cost(expected), seen.cost(elsewhere));
-            put(named, own, self.first);
-            let mut other = cost.least(own.plus(rival));
+            let other = cost.least(own.plus(rival));
             element.own = own;
-            if counted.is_some() {
-                let counts = left & 1 != 0;
-                left = left.wrapping_shr(1);
-                let raised = cost.plus(NOT_RAISED).least(own.plus(RAISED));
-                element.raised = raised.only_if(counts).bar();
-                other = other.only_if(counts);
-            }
             element.other = other.bar();
+            if raises {
+                let raised = cost.plus(NOT_RAISED).least(own.plus(RAISED));
+                element.raised = raised.bar();
+            }
+            put(named, own, self.first);
             sum = sum.plus(other);
         }
         sum
     }
 
     /// Reads every element of a sensor that is not flat; gives what they cost when they are named
-    /// themselves. Given are those that count of actions, which may be raised.
+    /// themselves.
     #[inline(always)]
     fn prepare(
         &self,
         elements: &mut [Element],
         named: &mut [Costs],
         rival: Costs,
-        counted: Option<u64>,
+        raises: bool,
     ) -> Costs {
         let mut sum = Costs::ZERO;
-        let mut left = counted.unwrap_or(u64::MAX);
         let elements = elements.iter_mut().zip(self.likelihoods);
         let elements = elements.zip(named).zip(self.expected());
         for (((element, &likelihood), named), expected) in elements {
             let seen = Seen::new(likelihood);
-            let mut own = seen.cost(expected);
-            put(named, own, self.first);
+            let own = seen.cost(expected);
             element.seen = seen;
-            let mut other = own.plus(rival);
-            if counted.is_some() {
-                let counts = left & 1 != 0;
-                left = left.wrapping_shr(1);
-                let raised = NOT_RAISED.below(own.plus(RAISED).bar());
-                element.raised = raised.only_if(counts).bar();
-                (own, other) = (own.only_if(counts), other.only_if(counts));
+            element.other = own.plus(rival).bar();
+            if raises {
+                element.raised = NOT_RAISED.below(own.plus(RAISED).bar()).bar();
             }
-            element.other = other.bar();
+            put(named, own, self.first);
             sum = sum.plus(own);
         }
         sum
@@ -137,7 +127,7 @@ impl<'a> Reading<'a> {
 pub fn parameter(reading: &Reading<'_>, room: &mut Room<'_>, heard: &mut [Costs]) {
     let mut best = Costs::all(MOST);
     if let Some(elsewhere) = reading.rows.elsewhere {
-        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL, None);
+        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL, false);
         for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
             let mut sum = all;
             if let Some(named) = room.elements.get(usize::from(k)) {
@@ -148,7 +138,7 @@ pub fn parameter(reading: &Reading<'_>, room: &mut Room<'_>, heard: &mut [Costs]
             *place = sum;
         }
     } else {
-        let own = reading.prepare(room.elements, room.named, RIVAL, None);
+        let own = reading.prepare(room.elements, room.named, RIVAL, false);
         let all = own.plus(RIVAL.times(room.elements.len()));
         for (&k, place) in reading.live.iter().zip(&mut *room.sums) {
             let mut sum = all;
@@ -178,17 +168,12 @@ pub fn action(
 ) {
     let (mut best, mut best_raised) = (Costs::all(MOST), Costs::all(MOST));
     let (mut of, mut beside) = (None, Costs::ZERO);
-    let counted = counted(reading.likelihoods, reading.live);
+    let repeated = repeated(reading.likelihoods, reading.live);
     let sums = room.sums.iter_mut().zip(&mut *room.raised);
     let live = reading.live.iter().zip(sums);
     if let Some(elsewhere) = reading.rows.elsewhere {
-        let all = reading.prepare_flat(
-            elsewhere,
-            room.elements,
-            room.named,
-            RIVAL_ACTION,
-            Some(counted),
-        );
+        let all = reading.prepare_flat(elsewhere, room.elements, room.named, RIVAL_ACTION, true);
+        let all = leave_out(repeated, room.elements, all, Costs::ZERO);
         for (&k, (plain, raised)) in live {
             let k = usize::from(k);
             let (Some(named), Some(action)) = (room.elements.get(k), actions.get(k)) else {
@@ -213,8 +198,13 @@ pub fn action(
             (best, best_raised) = (best.least(*plain), best_raised.least(*raised));
         }
     } else {
-        let own = reading.prepare(room.elements, room.named, RIVAL_ACTION, Some(counted));
-        let all = own.plus(RIVAL_ACTION.times(counted.count_ones() as usize));
+        let own = reading.prepare(room.elements, room.named, RIVAL_ACTION, true);
+        let own = leave_out(repeated, room.elements, own, RIVAL_ACTION);
+        let counted = room
+            .elements
+            .len()
+            .saturating_sub(repeated.count_ones() as usize);
+        let all = own.plus(RIVAL_ACTION.times(counted));
         for (&k, (plain, raised)) in live {
             let k = usize::from(k);
             let Some(action) = actions.get(k) else {
@@ -223,17 +213,14 @@ pub fn action(
             let signature = action.signature.compulsory;
             if of != Some(signature) {
                 of = Some(signature);
-                beside = own;
-                let mut left = counted;
-                for action in actions {
-                    let rival = if action.signature.compulsory == signature {
-                        RIVAL_ACTION
-                    } else {
-                        RAISED
-                    };
-                    beside = beside.plus(rival.only_if(left & 1 != 0));
-                    left = left.wrapping_shr(1);
-                }
+                let pairs = room.elements.iter().zip(actions);
+                let of_it = |(element, action): &(&Element, &Action)| {
+                    element.counts() && action.signature.compulsory == signature
+                };
+                let same = pairs.filter(of_it).count();
+                beside = own
+                    .plus(RIVAL_ACTION.times(same))
+                    .plus(RAISED.times(counted.saturating_sub(same)));
             }
             let (mut sum, mut other) = (all, beside);
             let row = room.elements.iter().zip(reading.rows.of(k)).zip(actions);
