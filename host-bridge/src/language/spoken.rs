@@ -11,7 +11,7 @@ use deictic_core::sentence::{ABSENT_BELOW, LANGUAGE};
 use serde::Deserialize;
 
 use super::error::LanguageError;
-use super::{Command, Listener, Utterance};
+use super::{Command, Listener, Uncertainty, Utterance};
 
 /// What was heard of one utterance.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,7 +98,7 @@ impl Spoken {
 impl Listener<'_> {
     /// Understands what was heard. Whatever has a probability above [`Listener::risk`] stays in
     /// question: options that do are equally likely, for the hand, the scene or the person to choose
-    /// from, and what may have been no command at all is to be said again.
+    /// from (unless words are [`Uncertainty::Likelihood`], which are weighed by who takes them), and what may have been no command at all is to be said again.
     ///
     /// # Errors
     /// As [`Listener::understand`] when no alternative is understood, and
@@ -145,12 +145,17 @@ impl Listener<'_> {
             .iter()
             .filter(|(u, _)| u.commands.len() == count)
             .collect();
+        // Where figures are taken for the likelihoods that they are, they stay as they are.
+        let alike_above = match self.uncertainty {
+            Uncertainty::Likelihood { .. } => f64::INFINITY,
+            _ => self.risk,
+        };
         let mut mixed = best.clone();
         for (i, command) in mixed.commands.iter_mut().enumerate() {
             let at = alike
                 .iter()
                 .filter_map(|(u, share)| Some((u.commands.get(i)?, *share)));
-            command.sentence = mix(&at.collect::<Vec<_>>(), self.risk)?;
+            command.sentence = mix(&at.collect::<Vec<_>>(), alike_above)?;
         }
         Ok(mixed)
     }
@@ -178,9 +183,9 @@ fn same(a: &Utterance, b: &Utterance) -> bool {
 }
 
 /// One sentence of several: every word's likelihoods and category probabilities by the shares of the
-/// sentences that have it. The options that are named with more than `risk` all become as likely as
-/// can be.
-fn mix(sentences: &[(&Command, f64)], risk: f64) -> Result<Sentence, LanguageError> {
+/// sentences that have it. The options that are named with more than `alike_above` all become as likely
+/// as can be.
+fn mix(sentences: &[(&Command, f64)], alike_above: f64) -> Result<Sentence, LanguageError> {
     if let [(only, _)] = sentences {
         return Ok(only.sentence.clone());
     }
@@ -213,7 +218,7 @@ fn mix(sentences: &[(&Command, f64)], risk: f64) -> Result<Sentence, LanguageErr
         }
         let mut likelihoods = likelihoods.map(|l| (l / share).min(1.0) as f32);
         let doubtful = likelihoods.iter_mut().zip(named);
-        let doubtful = doubtful.filter(|(_, named)| *named > risk * share);
+        let doubtful = doubtful.filter(|(_, named)| *named > alike_above * share);
         doubtful.for_each(|(likelihood, _)| *likelihood = 1.0);
         let categories = categories.map(|c| (c / all).min(1.0) as f32);
         let word = Word::new(

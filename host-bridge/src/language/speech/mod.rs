@@ -7,6 +7,7 @@
 
 mod anything;
 mod error;
+mod fits;
 pub mod moonshine;
 mod paths;
 pub mod phrases;

@@ -125,6 +125,12 @@ impl Phrases {
         all.flatten().flat_map(|p| p.split(' ')).collect()
     }
 
+    /// Words of which no meaning changes when they are left out.
+    #[must_use]
+    pub fn idle(&self) -> Vec<String> {
+        [self.speech.polite.as_slice(), &self.speech.determiner].concat()
+    }
+
     /// All that commands are held against: every option, and that none is given.
     #[must_use]
     pub fn commands(&self) -> Vec<Only> {

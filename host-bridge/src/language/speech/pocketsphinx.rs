@@ -1,6 +1,6 @@
 //! Debian's pocketsphinx, run once per meaning that comes into question, on one recording.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -34,7 +34,7 @@ const QUIET: f32 = 40.0;
 
 /// Noise makes scores differ for no good reason, so they count the less, the less the voice stands
 /// out ([`sound::range`]): with 20, 10 and 5 dB some 2, 6 and 10 times less than in quiet.
-fn doubt(range: Option<f32>) -> f64 {
+pub(super) fn doubt(range: Option<f32>) -> f64 {
     let range = range.unwrap_or(QUIET).clamp(QUIET / 5.0, QUIET);
     f64::from(QUIET / range).powf(1.5)
 }
@@ -45,12 +45,25 @@ const COMFORT: f32 = 0.02;
 /// Texts further than this behind the best cannot count.
 const FARTHEST: f64 = 12.0;
 
+/// Whether it and its model are installed.
+#[must_use]
+pub fn installed(model: &Path) -> bool {
+    let paths = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders = std::env::split_paths(&paths);
+    model.is_dir() && folders.any(|folder| folder.join(PROGRAM).is_file())
+}
+
+/// The program that is run.
+pub(super) const PROGRAM: &str = "pocketsphinx_batch";
+
 /// The recogniser with its grammars.
 #[derive(Debug)]
 pub struct Pocketsphinx {
     folder: TempDir,
     model: PathBuf,
     left_out: Vec<String>,
+    /// The words of its dictionary.
+    words: BTreeSet<String>,
     commands: Vec<PathBuf>,
     answers: Vec<PathBuf>,
     /// Of whatever else may be said.
@@ -76,9 +89,11 @@ impl Pocketsphinx {
         };
         let phrases = Phrases::new(lexicon, pack, pronounced).ok_or(SpeechError::NoGrammar)?;
         let folder = TempDir::new().map_err(file(Path::new("temporary folder")))?;
-        let known = phrases.words().into_iter().filter(|w| dictionary.knows(w));
-        let words = dictionary.part(known) + &anything::dictionary();
-        write(&folder.path().join("words"), &words)?;
+        let known = phrases.words().into_iter();
+        let known: BTreeSet<_> = known.filter(|w| dictionary.knows(w)).collect();
+        let lines = dictionary.part(known.iter().copied()) + &anything::dictionary();
+        write(&folder.path().join("words"), &lines)?;
+        let words = known.into_iter().map(str::to_owned).collect();
         let anything = folder.path().join("anything.gram");
         write(&anything, &anything::grammar())?;
         let mut files = 0;
@@ -96,6 +111,7 @@ impl Pocketsphinx {
             folder,
             model: model.to_owned(),
             left_out: phrases.left_out().to_vec(),
+            words,
             commands,
             answers,
             anything,
@@ -145,13 +161,7 @@ impl Pocketsphinx {
         samples: &[i16],
         expected: Expected,
     ) -> Result<Vec<(String, f64)>, SpeechError> {
-        let take = self.takes.fetch_add(1, Ordering::Relaxed);
-        let folder = self.folder.path().join(format!("take{take}"));
-        fs::create_dir(&folder).map_err(file(&folder))?;
-        let said = folder.join("said.raw");
-        let length = samples.len();
-        let samples = sound::prepared(samples, Colour::Pink, COMFORT);
-        sound::write(&said, &samples).map_err(file(&said))?;
+        let folder = self.take(samples)?;
         write(&folder.join("list"), "said\n")?;
         let grammars = match expected {
             Expected::Command => &self.commands,
@@ -176,7 +186,7 @@ impl Pocketsphinx {
         let _ = fs::remove_dir_all(&folder);
         let mut best: HashMap<String, f64> = HashMap::new();
         if let Some((_, score)) = other {
-            best.insert(String::new(), anything::bar(score, length));
+            best.insert(String::new(), anything::bar(score, samples.len()));
         }
         for (text, score) in heard.into_iter().flatten() {
             let known = best.entry(text).or_insert(score);
@@ -187,18 +197,25 @@ impl Pocketsphinx {
         Ok(all)
     }
 
-    /// The best text of one grammar, if any fits at all.
-    fn best(&self, take: &Path, grammar: &Path) -> Result<Option<(String, f64)>, SpeechError> {
-        let name = grammar.file_stem().unwrap_or_default().to_string_lossy();
-        let heard = take.join(format!("{name}.hyp"));
-        let mut command = Command::new("pocketsphinx_batch");
+    /// A folder with a recording in it, made ready.
+    pub(super) fn take(&self, samples: &[i16]) -> Result<PathBuf, SpeechError> {
+        let take = self.takes.fetch_add(1, Ordering::Relaxed);
+        let folder = self.folder.path().join(format!("take{take}"));
+        fs::create_dir(&folder).map_err(file(&folder))?;
+        let said = folder.join("said.raw");
+        let samples = sound::prepared(samples, Colour::Pink, COMFORT);
+        sound::write(&said, &samples).map_err(file(&said))?;
+        Ok(folder)
+    }
+
+    /// Tells a run over a list of takes what all runs have in common.
+    pub(super) fn settle(&self, command: &mut Command, take: &Path, list: &Path, heard: &Path) {
         let paths = [
-            ("-cepdir", take.to_owned()),
-            ("-ctl", take.join("list")),
-            ("-hmm", self.model.join("en-us")),
-            ("-dict", self.folder.path().join("words")),
-            ("-jsgf", grammar.to_owned()),
-            ("-hyp", heard.clone()),
+            ("-cepdir", take),
+            ("-ctl", list),
+            ("-hmm", &self.model.join("en-us")),
+            ("-dict", &self.folder.path().join("words")),
+            ("-hyp", heard),
         ];
         for (option, path) in paths {
             command.arg(option).arg(path);
@@ -207,7 +224,21 @@ impl Pocketsphinx {
         // so that those of different grammars cannot be compared.
         command.args(["-adcin", "yes", "-cepext", ".raw", "-compallsen", "yes"]);
         command.args(["-bestpath", "yes", "-dither", "no", "-logfn", "/dev/null"]);
-        run("pocketsphinx_batch", &mut command)?;
+    }
+
+    /// Whether it can hear a word.
+    pub(super) fn pronounces(&self, word: &str) -> bool {
+        self.words.contains(word)
+    }
+
+    /// The best text of one grammar, if any fits at all.
+    fn best(&self, take: &Path, grammar: &Path) -> Result<Option<(String, f64)>, SpeechError> {
+        let name = grammar.file_stem().unwrap_or_default().to_string_lossy();
+        let heard = take.join(format!("{name}.hyp"));
+        let mut command = Command::new(PROGRAM);
+        command.arg("-jsgf").arg(grammar);
+        self.settle(&mut command, take, &take.join("list"), &heard);
+        run(PROGRAM, &mut command)?;
         // "pick the cup (said -4711)"
         let line = fs::read_to_string(&heard).map_err(file(&heard))?;
         let heard = line.trim_end().strip_suffix(')');

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use super::error::SpeechError;
 use super::moonshine::{self, Moonshine};
-use super::pocketsphinx::Pocketsphinx;
+use super::pocketsphinx::{self, Pocketsphinx};
 use crate::language::Spoken;
 use crate::language::pack::Pack;
 use crate::vocabulary::Lexicon;
@@ -22,10 +22,11 @@ pub enum Expected {
 /// Which recogniser.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
-    /// Moonshine where it is installed, else pocketsphinx.
+    /// Moonshine where it is installed, with pocketsphinx for a second opinion where that is; else
+    /// pocketsphinx.
     #[default]
     Best,
-    /// Moonshine.
+    /// Moonshine alone.
     Moonshine,
     /// Debian's pocketsphinx.
     Pocketsphinx,
@@ -47,8 +48,8 @@ impl FromStr for Kind {
 /// A recogniser with the rules of a vocabulary.
 #[derive(Debug)]
 pub enum Recogniser {
-    /// From the package `moonshine-voice`.
-    Moonshine(Box<Moonshine>),
+    /// From the package `moonshine-voice`, and pocketsphinx for a second opinion.
+    Moonshine(Box<Moonshine>, Option<Pocketsphinx>),
     /// Debian's.
     Pocketsphinx(Pocketsphinx),
 }
@@ -64,12 +65,17 @@ impl Recogniser {
         pack: &Pack,
         sphinx: &Path,
     ) -> Result<Self, SpeechError> {
-        let moonshine = |folder: &Path| {
+        let moonshine = |folder: &Path, second| {
             let opened = Moonshine::new(lexicon, pack, folder)?;
-            Ok(Self::Moonshine(Box::new(opened)))
+            Ok(Self::Moonshine(Box::new(opened), second))
         };
         match (kind, moonshine::installed()) {
-            (Kind::Best | Kind::Moonshine, Some(folder)) => moonshine(&folder),
+            (Kind::Best, Some(folder)) => {
+                let second = pocketsphinx::installed(sphinx);
+                let second = second.then(|| Pocketsphinx::new(lexicon, pack, sphinx));
+                moonshine(&folder, second.transpose()?)
+            }
+            (Kind::Moonshine, Some(folder)) => moonshine(&folder, None),
             (Kind::Moonshine, None) => Err(SpeechError::Model {
                 path: moonshine::place(),
                 why: "Moonshine is not installed there".into(),
@@ -93,7 +99,7 @@ impl Recogniser {
     /// [`SpeechError`].
     pub fn hear(&mut self, samples: &[i16], expected: Expected) -> Result<Spoken, SpeechError> {
         match self {
-            Self::Moonshine(moonshine) => moonshine.hear(samples, expected),
+            Self::Moonshine(first, second) => first.hear(samples, expected, second.as_ref()),
             Self::Pocketsphinx(pocketsphinx) => pocketsphinx.hear(samples, expected),
         }
     }

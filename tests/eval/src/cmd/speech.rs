@@ -1,11 +1,11 @@
 //! `deictic-eval speech`
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::Context;
 use deictic::language::pack::Pack;
-use deictic::language::speech::moonshine::{self, LEAD, Scores};
+use deictic::language::speech::moonshine::{Scores, Weights, Writing};
 use deictic::language::speech::pocketsphinx::{self, MODEL, Pocketsphinx};
 use deictic::language::speech::sound::range;
 use deictic::language::speech::{Expected, Kind, Recogniser, samples};
@@ -36,9 +36,27 @@ pub struct Speech {
     /// What hears: moonshine, pocketsphinx, or best, which is moonshine where it is installed
     #[arg(long, default_value = "best")]
     recogniser: Kind,
-    /// Take the voices that the recognisers' figures are fitted on, and score several of them
+    /// Take the voices that the recognisers' figures are fitted on
     #[arg(long)]
     fit: bool,
+    /// Score how far a text must be behind to be e times less probable
+    #[arg(long, value_delimiter = ',')]
+    scale: Vec<f64>,
+    /// Score how far talk must be ahead of commands, heard by Moonshine
+    #[arg(long, value_delimiter = ',')]
+    lead: Vec<f64>,
+    /// Score how much of Moonshine's habits is taken away
+    #[arg(long, value_delimiter = ',')]
+    habit: Vec<f64>,
+    /// Score how little pocketsphinx's opinion counts beside Moonshine's
+    #[arg(long, value_delimiter = ',')]
+    second: Vec<f64>,
+    /// Score how much noise makes everything doubtful, heard by Moonshine
+    #[arg(long, value_delimiter = ',')]
+    power: Vec<f64>,
+    /// Keep what was heard in this file; when it is there, decide on that and hear nothing
+    #[arg(long, value_name = "FILE")]
+    heard: Option<PathBuf>,
     /// Print what was not done right
     #[arg(long)]
     verbose: bool,
@@ -59,6 +77,12 @@ struct Score {
     scale: f64,
     /// Moonshine's bar against talk.
     lead: f64,
+    /// How much of Moonshine's habits is taken away.
+    habit: f64,
+    /// What pocketsphinx's scores count.
+    second: f64,
+    /// What noise makes of the scale.
+    power: f64,
     utterances: usize,
     right: f64,
     wrong: f64,
@@ -67,15 +91,17 @@ struct Score {
     seconds: f64,
 }
 
+#[derive(serde::Serialize, serde::Deserialize)]
 struct Heard {
     said: Said,
-    voice: &'static str,
+    voice: String,
     level: Option<i32>,
     scores: Scored,
     seconds: f64,
 }
 
 /// What a recogniser made of it.
+#[derive(serde::Serialize, serde::Deserialize)]
 enum Scored {
     Moonshine(Scores),
     Pocketsphinx(Vec<(String, f64)>, Option<f32>),
@@ -84,30 +110,37 @@ enum Scored {
 impl Scored {
     fn of(recogniser: &mut Recogniser, sound: &[i16]) -> anyhow::Result<Self> {
         Ok(match recogniser {
-            Recogniser::Moonshine(m) => Self::Moonshine(m.scores(sound, Expected::Command)?),
+            Recogniser::Moonshine(m, second) => {
+                let scores = m.scores(sound, Expected::Command, second.as_ref())?;
+                Self::Moonshine(scores)
+            }
             Recogniser::Pocketsphinx(p) => {
                 Self::Pocketsphinx(p.scores(sound, Expected::Command)?, range(sound))
             }
         })
     }
 
-    fn weigh(&self, (scale, lead): (f64, f64)) -> Result<Spoken, LanguageError> {
+    fn weigh(&self, weights: Weights) -> Result<Spoken, LanguageError> {
         match self {
-            Self::Moonshine(scores) => scores.weigh(scale, lead),
-            Self::Pocketsphinx(scores, range) => Pocketsphinx::weigh(scores, *range, scale),
+            Self::Moonshine(scores) => scores.weigh(weights),
+            Self::Pocketsphinx(scores, range) => Pocketsphinx::weigh(scores, *range, weights.scale),
         }
     }
 
     /// The likeliest texts, for people.
     fn told(&self) -> String {
-        let (all, free) = match self {
-            Self::Moonshine(scores) => (&scores.allowed, Some(&scores.free)),
-            Self::Pocketsphinx(scores, _) => (scores, None),
+        let told = |w: &Writing| format!("{} {:.1} {:.1}", w.text, w.heard, w.anyway);
+        let best: Vec<_> = match self {
+            Self::Moonshine(scores) => {
+                let best = scores.allowed.iter().take(4).chain([&scores.free]);
+                best.map(told).collect()
+            }
+            Self::Pocketsphinx(scores, _) => {
+                let best = scores.iter().take(4);
+                best.map(|(text, score)| format!("{text} {score:.0}"))
+                    .collect()
+            }
         };
-        let best = all.iter().take(4).chain(free);
-        let best: Vec<_> = best
-            .map(|(text, score)| format!("{text} {score:.1}"))
-            .collect();
         best.join(", ")
     }
 }
@@ -142,11 +175,11 @@ impl Speech {
                 },
             ),
         ];
-        let heard = self.hear(&lexicon, &pack, &mut recogniser)?;
+        let heard = self.kept(&lexicon, &pack, &mut recogniser)?;
         let (recogniser, figures) = self.figures(&recogniser);
         let mut scores = Vec::new();
         for (model, trial) in &trials {
-            for &(scale, lead) in &figures {
+            for &weights in &figures {
                 for (talk, level) in [false, true]
                     .into_iter()
                     .flat_map(|t| LEVELS.map(|l| (t, l)))
@@ -154,7 +187,7 @@ impl Speech {
                     let of_level = heard
                         .iter()
                         .filter(|h| h.level == level && h.said.truth[0].is_none() == talk);
-                    let mut score = self.score(of_level, level, (scale, lead), trial);
+                    let mut score = self.score(of_level, level, weights, trial);
                     (score.model, score.talk, score.recogniser) = (model, talk, recogniser);
                     scores.push(score);
                 }
@@ -164,40 +197,71 @@ impl Speech {
             return super::print_json(&scores);
         }
         println!("heard by {recogniser}");
-        println!("model  said      noise    scale  lead  right  wrong  asked  seconds");
+        println!(
+            "model  said      noise    scale  lead  habit  second  power  right  wrong  asked  seconds"
+        );
         for s in &scores {
             let noise = s.noise.map_or("none".to_owned(), |n| format!("{n} dB"));
             let said = if s.talk { "talk" } else { "commands" };
             println!(
-                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
-                s.model, s.scale, s.lead, s.right, s.wrong, s.asked, s.seconds
+                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.1} {:>7.0} {:>6.2} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
+                s.model,
+                s.scale,
+                s.lead,
+                s.habit,
+                s.second,
+                s.power,
+                s.right,
+                s.wrong,
+                s.asked,
+                s.seconds
             );
         }
         Ok(())
     }
 
-    /// The recogniser's name, and the scales and leads that are scored.
-    fn figures(&self, recogniser: &Recogniser) -> (&'static str, Vec<(f64, f64)>) {
-        let grid = |scales: &[f64], leads: &[f64]| {
-            let all = scales
-                .iter()
-                .flat_map(|&s| leads.iter().map(move |&l| (s, l)));
-            all.collect()
+    /// The recogniser's name, and the weights that are scored.
+    fn figures(&self, recogniser: &Recogniser) -> (&'static str, Vec<Weights>) {
+        let usual = Weights::default();
+        let (name, scale) = match recogniser {
+            Recogniser::Moonshine(_, None) => ("moonshine", usual.scale),
+            Recogniser::Moonshine(_, Some(_)) => ("moonshine and pocketsphinx", usual.scale),
+            Recogniser::Pocketsphinx(_) => ("pocketsphinx", pocketsphinx::SCALE),
         };
-        match (recogniser, self.fit) {
-            (Recogniser::Moonshine(_), false) => ("moonshine", vec![(moonshine::SCALE, LEAD)]),
-            (Recogniser::Moonshine(_), true) => {
-                let leads = [3.4, 3.8, 4.2, 4.6, 5.0];
-                ("moonshine", grid(&[0.7, 1.0, 1.5, 2.0], &leads))
+        let mut all = vec![Weights { scale, ..usual }];
+        let mut vary = |figures: &[f64], with: fn(Weights, f64) -> Weights| {
+            if !figures.is_empty() {
+                let each = all
+                    .iter()
+                    .flat_map(|w| figures.iter().map(|f| with(*w, *f)));
+                all = each.collect();
             }
-            (Recogniser::Pocketsphinx(_), false) => {
-                ("pocketsphinx", vec![(pocketsphinx::SCALE, 0.0)])
-            }
-            (Recogniser::Pocketsphinx(_), true) => {
-                let scales = [10.0, 15.0, 20.0, 30.0, 40.0, 60.0, 100.0];
-                ("pocketsphinx", grid(&scales, &[0.0]))
-            }
+        };
+        vary(&self.scale, |w, scale| Weights { scale, ..w });
+        vary(&self.lead, |w, lead| Weights { lead, ..w });
+        vary(&self.habit, |w, habit| Weights { habit, ..w });
+        vary(&self.second, |w, second| Weights { second, ..w });
+        vary(&self.power, |w, noise| Weights { noise, ..w });
+        (name, all)
+    }
+
+    /// What was heard, this time or before.
+    fn kept(
+        &self,
+        lexicon: &Lexicon,
+        pack: &Pack,
+        recogniser: &mut Recogniser,
+    ) -> anyhow::Result<Vec<Heard>> {
+        let Some(file) = &self.heard else {
+            return self.hear(lexicon, pack, recogniser);
+        };
+        let wrong = || format!("{}", file.display());
+        if let Ok(kept) = std::fs::read(file) {
+            return serde_json::from_slice(&kept).with_context(wrong);
         }
+        let heard = self.hear(lexicon, pack, recogniser)?;
+        std::fs::write(file, serde_json::to_vec(&heard)?).with_context(wrong)?;
+        Ok(heard)
     }
 
     fn hear(
@@ -213,13 +277,13 @@ impl Speech {
         };
         let folder = tempfile::tempdir().context("no folder for recordings")?;
         let bar = ProgressBar::new(
-            (self.voices.min(voices.len()) * LEVELS.len() * (self.rounds * 9 + 12)) as u64,
+            (self.voices.min(voices.len()) * LEVELS.len() * (self.rounds * 9 + 20)) as u64,
         );
         let mut all = Vec::new();
         for (v, voice) in (0..).zip(voices).take(self.voices) {
             let seed = seed * 100 + v;
             let commands = said(lexicon, pack, self.rounds, seed);
-            for said in commands.into_iter().chain(talk(seed)) {
+            for said in commands.into_iter().chain(talk(seed, self.fit)) {
                 for level in LEVELS {
                     let recording = speak(folder.path(), voice, &said, level)?;
                     let began = Instant::now();
@@ -228,7 +292,7 @@ impl Speech {
                     let said = said.clone();
                     all.push(Heard {
                         said,
-                        voice,
+                        voice: voice.to_owned(),
                         level,
                         scores,
                         seconds: began.elapsed().as_secs_f64(),
@@ -245,12 +309,12 @@ impl Speech {
         &self,
         heard: impl Iterator<Item = &'a Heard>,
         noise: Option<i32>,
-        (scale, lead): (f64, f64),
+        weights: Weights,
         trial: &Trial<'_>,
     ) -> Score {
         let (mut counts, mut utterances, mut seconds) = ([0_usize; 3], 0, 0.0);
         for h in heard {
-            let answer = match h.scores.weigh((scale, lead)) {
+            let answer = match h.scores.weigh(weights) {
                 Ok(spoken) => trial.decide(&h.said, &spoken),
                 Err(error) => Answer::Asked(error.to_string()),
             };
@@ -276,8 +340,11 @@ impl Speech {
             talk: false,
             noise,
             recogniser: "",
-            scale,
-            lead,
+            scale: weights.scale,
+            lead: weights.lead,
+            habit: weights.habit,
+            second: weights.second,
+            power: weights.noise,
             utterances,
             right: share(counts[0]),
             wrong: share(counts[1]),

@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// An utterance and what is meant by it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Said {
     /// The words.
     pub text: String,
@@ -20,12 +20,20 @@ pub struct Said {
     /// Words per minute.
     pub speed: u32,
     /// Its noise, as sox calls it.
-    pub noise: &'static str,
+    pub noise: String,
 }
 
-/// What people say to each other in the same room. None of it is among the sentences that the bar
-/// between talk and commands was set by.
-const TALK: [&str; 12] = [
+/// What people say in the same room and is to move nothing: talk, prohibitions, questions. None of it
+/// is among [`OTHER_TALK`].
+const TALK: [&str; 20] = [
+    "don't pick the cup",
+    "never put the cube into the drawer",
+    "do not pour the bottle into the bowl",
+    "please don't push the box",
+    "should I pick the cup",
+    "did you put the can into the bowl",
+    "is the cube in the drawer",
+    "who pushed the bottle",
     "can we talk about the budget later",
     "I had pasta for dinner",
     "the train was late again",
@@ -40,17 +48,42 @@ const TALK: [&str; 12] = [
     "what a nice surprise",
 ];
 
-/// Talk that is no command.
+/// The same for [`super::FITTED`] voices.
+const OTHER_TALK: [&str; 20] = [
+    "never take the mug",
+    "do not stack the cube onto the foam",
+    "don't slide the can",
+    "don't let go",
+    "where did you put the mug",
+    "why is the block on the foam",
+    "do you see the bottle",
+    "can I take the carton",
+    "what time is it now",
+    "the weather is lovely today",
+    "my sister lives in london",
+    "we should have lunch together",
+    "did you hear the news this morning",
+    "he drives a red car to work",
+    "the children are playing in the garden",
+    "turn the music down a little",
+    "have a nice weekend",
+    "please call me back after five",
+    "the meeting starts at nine",
+    "could somebody open a window",
+];
+
+/// What is no command, one list or, for figures to be fitted by, another.
 #[must_use]
-pub fn talk(seed: u64) -> Vec<Said> {
+pub fn talk(seed: u64, fit: bool) -> Vec<Said> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let said = |text: &str| Said {
         text: text.to_owned(),
         truth: [None, None, None],
         speed: 130 + 10 * random.random_range(0..4),
-        noise: "pinknoise",
+        noise: "pinknoise".into(),
     };
-    TALK.into_iter().map(said).collect()
+    let list = if fit { OTHER_TALK } else { TALK };
+    list.into_iter().map(said).collect()
 }
 
 /// `rounds` utterances of every action of a vocabulary, in words drawn from it.
@@ -101,7 +134,7 @@ pub fn said(lexicon: &Lexicon, pack: &Pack, rounds: usize, seed: u64) -> Vec<Sai
                 text,
                 truth,
                 speed: 130 + 10 * random.random_range(0..4),
-                noise: noises[random.random_range(0..noises.len())],
+                noise: noises[random.random_range(0..noises.len())].into(),
             });
         }
     }
@@ -130,7 +163,7 @@ pub fn speak(folder: &Path, voice: &str, said: &Said, snr: Option<i32>) -> anyho
         &clean_name,
         &noise_name,
         "synth",
-        said.noise,
+        &said.noise,
         "norm",
         "-6",
     ])?;

@@ -6,9 +6,11 @@
 //! much rather than any command was talk.
 
 mod model;
+mod scores;
 mod search;
 mod tokens;
 
+use std::collections::HashMap;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,17 +18,20 @@ use std::sync::{Mutex, PoisonError};
 
 use ort::environment::Environment;
 
-use self::model::Model;
-use self::search::{Search, anything};
-use self::tokens::Tokens;
+pub use self::scores::{HABIT, LEAD, NOISE, SCALE, SECOND, Scores, Weights, Writing};
+
+use self::model::{Model, Written};
+use self::search::{Found, Search, anything};
+use self::tokens::{Token, Tokens};
 use super::Expected;
 use super::error::SpeechError;
 use super::paths::Paths;
 use super::phrases::Phrases;
+use super::pocketsphinx::Pocketsphinx;
 use super::program::file;
-use super::sound::RATE;
+use super::sound::{RATE, range};
+use crate::language::Spoken;
 use crate::language::pack::Pack;
-use crate::language::{LanguageError, Spoken};
 use crate::vocabulary::Lexicon;
 
 /// The environment variable that names the folder with the package, which `cargo xtask` sets.
@@ -39,22 +44,11 @@ const FOLDER: &str = "target/moonshine";
 const MODEL: &str = "moonshine_voice/assets/tiny-en";
 const LIBRARIES: &str = "moonshine_voice.libs";
 
-/// How far ahead, as ln and per word, what is written without rules must be of the likeliest command
-/// for it to be as probable that the utterance was talk. A command is as many words and one more, for
-/// the silence around them; words that it lacks add to the lead. Of six voices of espeak-ng at four
-/// levels of noise, 24 sentences of talk were ahead by 4.0 and more, and 100, 96, 96 and 94 % of 54
-/// commands by less.
-pub const LEAD: f64 = 4.2;
+/// The silence that tells the model's habits, in samples.
+const SILENCE: usize = 2 * RATE;
 
-/// How much more probable talk is when it is ahead by one more, as ln.
-const STEEP: f64 = 10.0;
-
-/// How much less probable a text is than it is taken for, as ln, when the rules do not have it: what
-/// is said to a machine that takes commands is mostly one of them.
-const OTHERWISE: f64 = 6.0;
-
-/// How far a text must be behind, as ln, to be e times less probable.
-pub const SCALE: f64 = 1.0;
+/// So many texts are weighed.
+const MOST: usize = 24;
 
 /// Silence before and after an utterance, in samples.
 const AROUND: (usize, usize) = (RATE / 5, RATE * 3 / 10);
@@ -69,43 +63,11 @@ pub struct Moonshine {
     tokens: Tokens,
     commands: Search,
     answers: Search,
-}
-
-/// What was heard, before it is weighed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scores {
-    /// What the rules allow, with ln of its probability.
-    pub allowed: Vec<(String, f64)>,
-    /// What was written without rules.
-    pub free: (String, f64),
-}
-
-impl Scores {
-    /// What they say if talk must be ahead by `lead`, and what is behind by `scale` is e times less
-    /// probable.
-    ///
-    /// # Errors
-    /// [`LanguageError::Empty`] when nothing was heard.
-    pub fn weigh(&self, scale: f64, lead: f64) -> Result<Spoken, LanguageError> {
-        let (text, score) = &self.free;
-        let mut all = self.allowed.clone();
-        if let Some((best, top)) = self.allowed.first() {
-            let count = |text: &str| text.split_whitespace().count();
-            let words = count(best);
-            let lacking = count(text).saturating_sub(words) as f64;
-            let ahead = (score - top + lacking) / (1.0 + words as f64);
-            all.push((String::new(), top + scale * STEEP * (ahead - lead)));
-        } else {
-            all.push((String::new(), *score));
-        }
-        // What the rules have as well is no other hypothesis.
-        if !text.is_empty() && self.allowed.iter().all(|(t, _)| t != text) {
-            all.push((text.clone(), score - OTHERWISE));
-        }
-        let top = all.iter().map(|s| s.1).fold(f64::NEG_INFINITY, f64::max);
-        all.retain(|s| s.1 > top - FARTHEST * scale);
-        Spoken::of_scores(all, scale)
-    }
+    /// Words that change no meaning.
+    idle: Vec<String>,
+    silence: Written,
+    /// ln of the probability of texts that the rules allow, of silence.
+    anyway: HashMap<Vec<Token>, f64>,
 }
 
 /// Where the package is looked for.
@@ -162,50 +124,94 @@ impl Moonshine {
         let library = library(folder).ok_or_else(|| bad("no ONNX Runtime beside it".into()))?;
         let runtime = runtime(&library).map_err(bad)?;
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let model = Model::load(&runtime, &place, threads.min(2));
+        let failed = |e: ort::Error| bad(e.to_string());
+        let mut model = Model::load(&runtime, &place, threads.min(2)).map_err(failed)?;
+        let silence = model.hear(&vec![0.0; SILENCE]).map_err(failed)?;
         let search = |all: Vec<_>| {
             let rules: Vec<_> = all.into_iter().filter_map(|o| phrases.rule(o)).collect();
             Search::new(Paths::new(&rules))
         };
         Ok(Self {
-            model: model.map_err(|e| bad(e.to_string()))?,
+            model,
             tokens,
             commands: search(phrases.any_command()),
             answers: search([phrases.answers(), phrases.any_command()].concat()),
+            idle: phrases.idle(),
+            silence,
+            anyway: HashMap::new(),
         })
     }
 
-    /// What is said in one utterance, samples of [`RATE`].
+    /// What is said in one utterance, samples of [`RATE`]; where it is in doubt, by the reckoning of
+    /// `second` as well.
     ///
     /// # Errors
     /// [`SpeechError`].
-    pub fn hear(&mut self, samples: &[i16], expected: Expected) -> Result<Spoken, SpeechError> {
-        let scores = self.scores(samples, expected)?;
-        Ok(scores.weigh(SCALE, LEAD)?)
+    pub fn hear(
+        &mut self,
+        samples: &[i16],
+        expected: Expected,
+        second: Option<&Pocketsphinx>,
+    ) -> Result<Spoken, SpeechError> {
+        let scores = self.scores(samples, expected, second)?;
+        Ok(scores.weigh(Weights::default())?)
     }
 
     /// How probable everything is.
     ///
     /// # Errors
     /// [`SpeechError`].
-    pub fn scores(&mut self, samples: &[i16], expected: Expected) -> Result<Scores, SpeechError> {
+    pub fn scores(
+        &mut self,
+        samples: &[i16],
+        expected: Expected,
+        second: Option<&Pocketsphinx>,
+    ) -> Result<Scores, SpeechError> {
+        let mut scores = self.alone(samples, expected)?;
+        if let Some(second) = second {
+            scores.ask(|texts| second.fits(samples, texts))?;
+        }
+        Ok(scores)
+    }
+
+    fn alone(&mut self, samples: &[i16], expected: Expected) -> Result<Scores, SpeechError> {
         let search = match expected {
             Expected::Command => &mut self.commands,
             Expected::Answer => &mut self.answers,
         };
         let (model, tokens) = (&mut self.model, &self.tokens);
+        let (silence, anyway) = (&self.silence, &mut self.anyway);
         let mut hear = || {
             let heard = model.hear(&prepared(samples))?;
-            let allowed = search.allowed(model, tokens, &heard)?;
-            let (text, score) = anything(model, tokens, &heard)?;
+            let mut allowed = search.allowed(model, tokens, &heard)?;
+            allowed.truncate(MOST);
+            let mut free = anything(model, tokens, &heard)?;
             // Of what is no answer nothing is made, whatever it says.
-            let text = match expected {
-                Expected::Answer if allowed.iter().all(|(t, _)| *t != text) => String::new(),
-                _ => text,
+            if expected == Expected::Answer && allowed.iter().all(|w| w.text != free.text) {
+                free.text.clear();
+            }
+            let new = allowed.iter().map(|w| w.pieces.as_slice());
+            let new: Vec<_> = new.filter(|p| !anyway.contains_key(*p)).collect();
+            let all = [new.as_slice(), &[free.pieces.as_slice()]].concat();
+            let mut of_silence = model.whole(silence, &all)?;
+            let free_anyway = of_silence.pop().unwrap_or_default();
+            anyway.extend(new.iter().map(|p| p.to_vec()).zip(of_silence));
+            let idle = &self.idle;
+            let writing = |found: Found, anyway: f64| Writing {
+                core: core(&found.text, idle),
+                text: found.text,
+                heard: found.score,
+                anyway,
+                fits: None,
+            };
+            let known = |found: Found| {
+                let anyway = anyway.get(&found.pieces).copied();
+                writing(found, anyway.unwrap_or_default())
             };
             Ok(Scores {
-                allowed,
-                free: (text, score),
+                allowed: allowed.into_iter().map(known).collect(),
+                free: writing(free, free_anyway),
+                range: range(samples),
             })
         };
         let failed = |e: ort::Error| SpeechError::Program {
@@ -216,8 +222,11 @@ impl Moonshine {
     }
 }
 
-/// Texts further than this behind the best cannot count.
-const FARTHEST: f64 = 12.0;
+/// A text without the words that change no meaning.
+fn core(text: &str, idle: &[String]) -> String {
+    let words = text.split(' ').filter(|w| idle.iter().all(|i| i != w));
+    words.collect::<Vec<_>>().join(" ")
+}
 
 /// An utterance as the model takes it: as loud as those that it learnt from, with silence around.
 fn prepared(samples: &[i16]) -> Vec<f32> {
@@ -227,35 +236,4 @@ fn prepared(samples: &[i16]) -> Vec<f32> {
     let voice = samples.iter().map(|&s| f32::from(s) * gain);
     let whole = silence(AROUND.0).chain(voice).chain(silence(AROUND.1));
     whole.collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn heard(allowed: &[(&str, f64)], free: (&str, f64)) -> Spoken {
-        let owned = |&(text, score): &(&str, f64)| (text.to_owned(), score);
-        let scores = Scores {
-            allowed: allowed.iter().map(owned).collect(),
-            free: owned(&free),
-        };
-        scores.weigh(SCALE, LEAD).unwrap()
-    }
-
-    #[test]
-    fn what_would_much_rather_be_written_was_talk() {
-        let odd = heard(&[("pick the cup", -5.0)], ("big the kappa", -2.0));
-        assert_eq!(odd.best(), "pick the cup");
-        let talk = heard(&[("up", -14.0)], ("the weather is lovely", -2.0));
-        assert_eq!(talk.best(), "");
-        assert_eq!(heard(&[], ("hm", -1.0)).best(), "");
-    }
-
-    #[test]
-    fn what_the_rules_lack_is_a_hypothesis_and_what_they_have_is_no_other() {
-        let asked = heard(&[("pick the cup", -11.0)], ("should i pick the cup", -1.0));
-        assert_eq!(asked.best(), "should i pick the cup");
-        let same = heard(&[("pick the cup", -1.0)], ("pick the cup", -1.2));
-        assert_eq!(same.certain(0.01), Some("pick the cup"));
-    }
 }

@@ -6,7 +6,7 @@ use ort::environment::Environment;
 use ort::session::{Session, SessionInputValue};
 use ort::value::TensorRef;
 
-use super::tokens::{BEGIN, Token};
+use super::tokens::{BEGIN, END, Token};
 
 /// Layers of what writes.
 const LAYERS: usize = 6;
@@ -15,6 +15,10 @@ const HEADS: usize = 8;
 const WIDTH: usize = 36;
 /// Figures of one heard moment.
 const HEARD: usize = 288;
+
+/// So many texts are held against a recording at once: each needs 130 kB per piece for the figures of
+/// every piece that could have come.
+const AT_ONCE: usize = 8;
 
 /// The model.
 #[derive(Debug)]
@@ -146,6 +150,69 @@ impl Model {
         written.next.chunks_mut(size.max(1)).for_each(normalise);
         Ok(())
     }
+
+    /// ln of the probability that each of these texts is written, and nothing else, of what was heard.
+    ///
+    /// # Errors
+    /// ONNX Runtime's.
+    pub fn whole(&mut self, heard: &Written, texts: &[&[Token]]) -> ort::Result<Vec<f64>> {
+        let mut all = Vec::with_capacity(texts.len());
+        for some in texts.chunks(AT_ONCE) {
+            all.extend(self.whole_at_once(heard, some)?);
+        }
+        Ok(all)
+    }
+
+    fn whole_at_once(&mut self, heard: &Written, texts: &[&[Token]]) -> ort::Result<Vec<f64>> {
+        let (n, moments) = (texts.len(), heard.moments);
+        let length = 1 + texts.iter().map(|t| t.len()).max().unwrap_or(0);
+        // What follows the end of a shorter text changes nothing before it.
+        let row = |text: &&[Token]| {
+            let pieces = std::iter::once(BEGIN).chain(text.iter().copied());
+            let padded = pieces.chain(std::iter::repeat(END)).take(length);
+            padded.map(i64::from).collect::<Vec<_>>()
+        };
+        let pieces: Vec<i64> = texts.iter().flat_map(row).collect();
+        let mask = vec![1_i64; n * moments];
+        let of_one = heard.heard.get(..moments * HEARD).unwrap_or_default();
+        let of_all = of_one.repeat(n);
+        let mut inputs: Vec<(String, SessionInputValue<'_>)> = vec![
+            (
+                "encoder_attention_mask".into(),
+                TensorRef::from_array_view(([n, moments], &*mask))?.into(),
+            ),
+            (
+                "input_ids".into(),
+                TensorRef::from_array_view(([n, length], &*pieces))?.into(),
+            ),
+            (
+                "encoder_hidden_states".into(),
+                TensorRef::from_array_view(([n, moments, HEARD], &*of_all))?.into(),
+            ),
+            (
+                "use_cache_branch".into(),
+                TensorRef::from_array_view(([1], &[false][..]))?.into(),
+            ),
+        ];
+        for name in ["decoder", "encoder"].into_iter().flat_map(names) {
+            let none = TensorRef::from_array_view(([n, HEADS, 0, WIDTH], &[0.0_f32; 0][..]))?;
+            inputs.push((format!("past_key_values.{name}"), none.into()));
+        }
+        let outputs = self.writes.run(inputs)?;
+        let (_, figures) = outputs["logits"].try_extract_tensor::<f32>()?;
+        let size = figures.len() / (n * length).max(1);
+        let rows = |(text, figures): (&&[Token], &[f32])| -> f64 {
+            let next = text.iter().copied().chain(std::iter::once(END));
+            let places = figures.chunks_exact(size.max(1));
+            let ln = |(piece, place): (Token, &[f32])| match place.get(piece as usize) {
+                Some(figure) => f64::from(*figure) - total(place),
+                None => f64::NEG_INFINITY,
+            };
+            next.zip(places).map(ln).sum()
+        };
+        let of_texts = figures.chunks_exact((size * length).max(1));
+        Ok(texts.iter().zip(of_texts).map(rows).collect())
+    }
 }
 
 impl Written {
@@ -170,7 +237,7 @@ impl Written {
             .iter()
             .enumerate()
             .max_by(|a, b| a.1.total_cmp(b.1));
-        best.map_or(super::tokens::END, |(piece, _)| piece as Token)
+        best.map_or(END, |(piece, _)| piece as Token)
     }
 
     /// From now on these writers go on, each from where one of the present ones is.
@@ -208,8 +275,13 @@ fn names(half: &str) -> impl Iterator<Item = String> {
 
 /// Makes ln of probabilities of a row.
 fn normalise(row: &mut [f32]) {
+    let ln = total(row) as f32;
+    row.iter_mut().for_each(|x| *x -= ln);
+}
+
+/// ln of the sum of what a row's figures are the ln of.
+fn total(row: &[f32]) -> f64 {
     let top = row.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let sum: f64 = row.iter().map(|&x| f64::exp(f64::from(x - top))).sum();
-    let ln = top + f64::ln(sum) as f32;
-    row.iter_mut().for_each(|x| *x -= ln);
+    f64::from(top) + f64::ln(sum)
 }
