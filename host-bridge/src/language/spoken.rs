@@ -98,7 +98,8 @@ impl Spoken {
 impl Listener<'_> {
     /// Understands what was heard. Whatever has a probability above [`Listener::risk`] stays in
     /// question: options that do are equally likely, for the hand, the scene or the person to choose
-    /// from (unless words are [`Uncertainty::Likelihood`], which are weighed by who takes them), and what may have been no command at all is to be said again.
+    /// from; [`Uncertainty::Likelihood`]s stay as they are. What may have been no command at all is to
+    /// be said again.
     ///
     /// # Errors
     /// As [`Listener::understand`] when no alternative is understood, and

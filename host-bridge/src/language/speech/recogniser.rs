@@ -88,7 +88,7 @@ impl Recogniser {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Moonshine(_) => "moonshine",
+            Self::Moonshine(..) => "moonshine",
             Self::Pocketsphinx(_) => "pocketsphinx",
         }
     }
