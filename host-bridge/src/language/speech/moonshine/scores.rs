@@ -108,6 +108,12 @@ impl Writing {
 }
 
 impl Scores {
+    /// The likeliest command by the model's own reckoning.
+    fn best(&self, habit: f64) -> Option<&Writing> {
+        let own = |w: &&Writing| w.own(habit);
+        self.allowed.iter().max_by(|a, b| own(a).total_cmp(&own(b)))
+    }
+
     /// How far ahead of the likeliest command talk is, per word.
     fn ahead(&self, habit: f64) -> Option<f64> {
         let own = |w: &&Writing| w.own(habit);
@@ -168,12 +174,14 @@ impl Scores {
         let mut all: Vec<_> = self.allowed.iter().map(score).collect();
         let largest = |some: &mut dyn Iterator<Item = f64>| some.fold(f64::NEG_INFINITY, f64::max);
         let top = largest(&mut all.iter().map(|s| s.1));
-        let own = largest(&mut self.allowed.iter().map(|w| w.own(habit)));
-        let free = self.free.own(habit);
-        // Nobody has said how well it fits what the rules do not allow.
-        let (talk, otherwise) = match self.ahead(habit) {
-            Some(ahead) => (top + scale * STEEP * (ahead - lead), top + free - own),
-            None => (free, free),
+        let free = self.free.heard;
+        // What nobody would write is no likelier for that, so habits count among commands alone.
+        let (talk, otherwise) = match (self.ahead(habit), self.best(habit)) {
+            (Some(ahead), Some(best)) => {
+                let talk = top + scale * STEEP * (ahead - lead);
+                (talk, top + free - best.heard)
+            }
+            _ => (free, free),
         };
         all.push((String::new(), talk));
         // What the rules have as well is no other hypothesis.
