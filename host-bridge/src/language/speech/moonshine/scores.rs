@@ -9,7 +9,8 @@ use crate::language::{LanguageError, Spoken};
 /// for it to be as probable that the utterance was talk. A command is as many words and one more, for
 /// the silence around them; words that it lacks add to the lead. Of six voices of espeak-ng at four
 /// levels of noise, 12 sentences of talk each were ahead by 6.5 and more, and 99, 100, 100 and 98 % of
-/// the 81 commands that were heard rightly by less than 4.
+/// the commands that were heard rightly, of 81, by less than 4. Without its habits taken away none of
+/// these was ahead by 3.8, and 33, 27, 50 and 40 % of those that were heard wrongly were.
 pub const LEAD: f64 = 4.2;
 
 /// How much more probable talk is when it is ahead by one more, as ln.
@@ -114,17 +115,17 @@ impl Scores {
         self.allowed.iter().max_by(|a, b| own(a).total_cmp(&own(b)))
     }
 
-    /// How far ahead of the likeliest command talk is, per word.
+    /// How far ahead of the likeliest command talk is, per word; whichever is more with the model's
+    /// habits or without, for what is no speech at all is written by habit.
     fn ahead(&self, habit: f64) -> Option<f64> {
-        let own = |w: &&Writing| w.own(habit);
-        let best = self
-            .allowed
-            .iter()
-            .max_by(|a, b| own(a).total_cmp(&own(b)))?;
-        let count = |text: &str| text.split_whitespace().count();
-        let words = count(&best.text);
-        let lacking = count(&self.free.text).saturating_sub(words) as f64;
-        Some((self.free.own(habit) - best.own(habit) + lacking) / (1.0 + words as f64))
+        let ahead = |habit: f64| {
+            let best = self.best(habit)?;
+            let count = |text: &str| text.split_whitespace().count();
+            let words = count(&best.text);
+            let lacking = count(&self.free.text).saturating_sub(words) as f64;
+            Some((self.free.own(habit) - best.own(habit) + lacking) / (1.0 + words as f64))
+        };
+        Some(ahead(habit)?.max(ahead(0.0)?))
     }
 
     /// Where several texts come into question, asks how well the sound `fits` them.
