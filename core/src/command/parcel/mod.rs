@@ -1,6 +1,6 @@
 //! Messages in CAN frames: classic ones of eight bytes, or those of CAN FD, of up to 64.
 //!
-//! A message of at most [`SHORT`] bytes goes in a frame of its own identifier: its bytes, zeros up to
+//! A message of at most [`SHORT`](super::SHORT) bytes goes in a frame of its own identifier: its bytes, zeros up to
 //! the seventh, and a CRC-8 over identifier and bytes. CAN's own CRC ends where a serial adapter's
 //! text begins, so what can move an arm has one of its own.
 //!
