@@ -61,7 +61,7 @@ fn what_is_wrong_is_found_at_its_place() {
     assert!(matches!(p, P::Refused(SceneError::BadPosition { .. })));
     let twice = format!("{}\n{}", can(""), can(""));
     let (p, place) = refused(&twice);
-    assert!(matches!(p, P::Refused(SceneError::Duplicate { entity: 1 })) && place == "\"can\"");
+    assert!(matches!(p, P::Twice(thing) if thing == "can") && place == "\"can\"");
 }
 
 #[test]
