@@ -9,15 +9,14 @@ mod trial;
 
 use std::time::Duration;
 
-use can::{Witness, interface, run};
+use can::{Witness, halt, interface, run};
 use deictic::link::bus::{Bus, BusFault, Socket};
 use deictic::robot::Event;
 use deictic::robot::end::Listener;
 use deictic::robot::way::Way;
-use deictic_core::can::{FlexibleFrame, Frame};
-use deictic_core::command::field::{Id, Number};
-use deictic_core::command::message::{FromRobot, Halt, ToRobot};
-use deictic_core::command::parcel::{Assembler, Sender, frames};
+use deictic_core::can::FlexibleFrame;
+use deictic_core::command::message::{FromRobot, ToRobot};
+use deictic_core::command::parcel::{Assembler, Sender};
 use trial::{Far, Near};
 
 fn far(interface: &str) -> Far {
@@ -61,14 +60,7 @@ fn a_halt_in_a_classic_frame_stops_the_arm() {
     let mut near = Near::to(&far.way);
     let id = near.begin("move-up");
     near.pass(Duration::from_millis(100));
-    let number = Number::new(0).unwrap();
-    let halt = ToRobot::Halt(Halt {
-        id: Id { run: 0, number },
-    });
-    for frame in frames::<Frame>(Sender::Host, &halt.packet()) {
-        let data: String = frame.data().iter().map(|b| format!("{b:02X}")).collect();
-        run("cansend", &[&name, &format!("{:03X}#{data}", frame.id())]);
-    }
+    halt(&name);
     let happened = near.until_end(id);
     assert!(
         matches!(happened.last(), Some(Event::Stopped { .. })),

@@ -7,7 +7,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use deictic_core::can::FlexibleFrame;
+use deictic_core::can::{FlexibleFrame, Frame};
+use deictic_core::command::field::{Id, Number};
+use deictic_core::command::message::{Halt, ToRobot};
+use deictic_core::command::parcel::{Sender, frames};
 
 /// The interface, for one test at a time: they switch it off and spoil it.
 pub fn interface() -> Option<(String, MutexGuard<'static, ()>)> {
@@ -23,6 +26,21 @@ pub fn interface() -> Option<(String, MutexGuard<'static, ()>)> {
 pub fn run(program: &str, arguments: &[&str]) {
     let status = Process::new(program).args(arguments).status().unwrap();
     assert!(status.success(), "{program} {arguments:?}");
+}
+
+/// Has `cansend` halt whatever moves, in classic frames, as anybody on the bus may.
+pub fn halt(interface: &str) {
+    let number = Number::new(0).unwrap();
+    let halt = ToRobot::Halt(Halt {
+        id: Id { run: 0, number },
+    });
+    for frame in frames::<Frame>(Sender::Host, &halt.packet()) {
+        let data: String = frame.data().iter().map(|b| format!("{b:02X}")).collect();
+        run(
+            "cansend",
+            &[interface, &format!("{:03X}#{data}", frame.id())],
+        );
+    }
 }
 
 /// The kernel's own interface to an adapter, slcan0, there as long as this is.
