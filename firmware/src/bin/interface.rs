@@ -139,7 +139,7 @@ macro_rules! decision {
             if let Ok(decision) = joint::fuse(situation, &any(Profile::JOINT), &mut trace)
                 && let Some(best) = &decision.best
             {
-                black_box(choose(best, &trace).is_some());
+                black_box(choose(best, &observed, &trace).is_some());
                 black_box(Triple::of(best));
             }
             black_box(gain::confirm(any(0.5), any(1.0)) + gain::which(&any([0.5; 3]), any(1.0)));
