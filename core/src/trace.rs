@@ -137,6 +137,12 @@ impl<const C: usize, const N: usize> Trace<C, N> {
         self.categories.get(category.index())
     }
 
+    /// Whether some word may be of this category.
+    pub(crate) fn speaks_of(&self, category: Category) -> bool {
+        self.category(category)
+            .is_some_and(|word| word.present > 0.0)
+    }
+
     /// The action word and the figures of the actions, to be written.
     #[allow(
         clippy::type_complexity,

@@ -8,10 +8,11 @@
 //! build, about 100 instructions each.
 
 use super::Heard;
-use crate::joint::belief::Belief;
-use crate::joint::cost::{Costs, weight};
+use crate::joint::cost::Costs;
+use crate::joint::factors::{Factors, Marginal, Options};
 use crate::joint::fits::{Part, WHOLE};
-use crate::joint::posterior::{Found, Marginal, Options, Posterior, Triple};
+use crate::joint::posterior::{Found, Triple};
+use crate::joint::weight::weight;
 use crate::joint::{LEVELS, Levels};
 use crate::math;
 
@@ -31,7 +32,7 @@ struct Sum {
     best: Option<Triple>,
 }
 
-impl Posterior<'_> {
+impl Factors<'_> {
     /// The best intent after the answers; the marginals of actions, objects and storages are filled
     /// in. `None` when nothing can be done.
     #[inline(never)]
@@ -86,11 +87,8 @@ impl Posterior<'_> {
         }
         Some(Found {
             best: sum.best?,
-            belief: Belief {
-                posterior: math::clamp_unit(sum.largest * per_total),
-                noise,
-                ..Belief::NONE
-            },
+            posterior: math::clamp_unit(sum.largest * per_total),
+            noise,
             shares,
             level: most.1,
         })

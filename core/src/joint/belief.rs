@@ -9,7 +9,7 @@
 //! (Angelopoulos et al. 2021), whose program and assumptions are in `deictic-eval calibrate`.
 
 use super::calibration::{ACTION, CUTS, OFFSET, RISKS, SLOPE};
-use super::{LEVELS, Levels};
+use super::{KINDS, LEVELS, Levels};
 use crate::clarify::calibration::{EARLY, LAST};
 use crate::math::{self, clamp_unit, larger};
 
@@ -40,9 +40,6 @@ impl Look {
         }
     }
 }
-
-/// Kinds of words that the confidence tells apart: an action alone, with one thing, with two.
-pub const KINDS: usize = 3;
 
 /// What the joint model believes of its best intent.
 #[derive(Clone, Copy, Debug, PartialEq)]

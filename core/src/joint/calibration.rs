@@ -1,7 +1,6 @@
 //! Made by `deictic-eval calibrate`: do not edit.
 
-use super::Levels;
-use super::belief::KINDS;
+use super::{KINDS, Levels};
 
 /// What the posterior's logit is multiplied by, by kinds of words and noise level.
 #[rustfmt::skip]

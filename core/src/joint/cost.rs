@@ -153,19 +153,6 @@ const fn below(a: u32, bar: u32) -> u32 {
     difference & smaller.wrapping_sub(smaller.wrapping_shr(15))
 }
 
-/// 2 to the power of -`cost` / 32, exact to 24 bits; 0 below 2^-100, which counts nowhere.
-#[must_use]
-#[inline(always)]
-pub fn weight(cost: u32) -> f32 {
-    let octaves = cost.wrapping_shr(5);
-    if octaves > 100 {
-        return 0.0;
-    }
-    let part = super::tables::POWERS.get((cost & 31) as usize);
-    let bits = part.copied().unwrap_or(0);
-    f32::from_bits(bits.wrapping_sub(octaves.wrapping_shl(23)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,20 +178,5 @@ mod tests {
         assert_eq!(costs.weighed(512).lanes(), [0, 200, MOST, 14]);
         assert_eq!(costs.weighed(128).lanes(), [0, 50, MOST / 2, 3]);
         assert_eq!(Costs::new([9, 4, 5, 6]).lowest(), 4);
-    }
-
-    #[test]
-    fn weights_are_powers_of_two() {
-        assert_eq!(weight(0), 1.0);
-        assert_eq!(weight(32), 0.5);
-        assert_eq!(weight(320), 1.0 / 1024.0);
-        assert_eq!(weight(32 * 101), 0.0);
-        for cost in 0..500 {
-            let exact = (-f64::from(cost) / 32.0).exp2();
-            assert!(
-                (f64::from(weight(cost)) / exact - 1.0).abs() < 1e-7,
-                "{cost}"
-            );
-        }
     }
 }

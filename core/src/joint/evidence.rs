@@ -3,12 +3,13 @@
 
 use heapless::Vec;
 
-use super::cost::{Costs, weight};
+use super::cost::Costs;
 use super::element::Element;
 use super::fit::Presence;
 use super::fits::{Row, Rows, Thing};
 use super::level::Weighed;
 use super::survey::Survey;
+use super::weight::weight;
 use super::word::DEAREST;
 use crate::category::{Category, CategorySet};
 use crate::scene::Scene;

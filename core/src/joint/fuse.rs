@@ -1,8 +1,8 @@
 //! Gathers what was said, weighs it, and decides.
 
 use super::belief::Belief;
+use super::factors::Marginal;
 use super::outcome::outcome;
-use super::posterior::Marginal;
 use crate::align::corresponds;
 use crate::category::{Category, CategorySet};
 use crate::decision::Decision;

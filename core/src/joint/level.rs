@@ -1,8 +1,9 @@
 //! All intents at one noise level.
 
-use super::cost::{Costs, weight};
+use super::cost::Costs;
+use super::factors::{Factors, Marginal, NEGLIGIBLE, Options};
 use super::fits::{Kind, Part, WHOLE};
-use super::posterior::{Marginal, NEGLIGIBLE, Options, Posterior};
+use super::weight::weight;
 
 /// What a row comes to at the level at hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +55,7 @@ pub(super) struct Level {
     pub peak: f32,
 }
 
-impl Posterior<'_> {
+impl Factors<'_> {
     /// Weighs all intents at level `b` and adds them to the marginals, in the places of the live
     /// options.
     #[inline(never)]

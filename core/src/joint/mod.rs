@@ -3,20 +3,20 @@
 //!
 //! ```text
 //! sentences, sensors ── word ──┐
-//! scene, requirements ─ survey ┴─ posterior ── belief ── outcome ── Decision
+//! scene, requirements ─ survey ┴─ factors ── posterior ── belief ── outcome ── Decision
 //! ```
 //!
 //! * [`word`] and its [`element`]s: how well an option explains a word, at each of [`LEVELS`] noise
 //!   levels, with [`rivals`] (options that are raised beside the one that was meant). Whole numbers:
-//!   see [`cost`].
+//!   see [`cost`]; [`mod@weight`] is the way back to a probability.
 //! * [`sensors`]: learned confusion tables; without one a plain sensor is assumed. A sensor may also
 //!   say by itself how likely what it saw is under each option; nothing of that is noise then.
 //! * [`fit`]: how well a thing meets a requirement, as the product of its feature likelihoods; and
 //!   how well the words' presence fits an action's signature.
 //! * [`survey`]: which actions are weighed; [`fits`]: which things fit them how well. Actions that take
 //!   a kind of thing alike share one row of fits.
-//! * [`posterior`]: at each [`level`] the posterior is a product of one factor per category, so that
-//!   it costs rows times options and never actions times objects times storages.
+//! * [`posterior`]: at each [`level`] the posterior is a product of one factor per category
+//!   ([`factors`]), so that it costs rows times options and never actions times objects times storages.
 //! * [`belief`]: the posterior and the noise that was heard, as a confidence that means what it says
 //!   on samples of any level, and the cuts that hold wrong executions to a given share.
 //!
@@ -29,8 +29,10 @@
 pub mod belief;
 pub mod calibration;
 pub mod cost;
+mod doubt;
 pub mod element;
 pub mod evidence;
+pub mod factors;
 pub mod fit;
 pub mod fits;
 mod fuse;
@@ -45,6 +47,7 @@ pub mod sensors;
 mod solving;
 pub mod survey;
 pub mod tables;
+pub mod weight;
 pub mod word;
 
 pub use evidence::Evidence;
@@ -57,3 +60,6 @@ pub const LEVELS: usize = 4;
 
 /// One figure per noise level.
 pub type Levels = [f32; LEVELS];
+
+/// Kinds of words that the confidence tells apart: an action alone, with one thing, with two.
+pub const KINDS: usize = 3;

@@ -4,13 +4,11 @@
 use heapless::Vec;
 
 use super::belief::{Belief, Look};
-use super::cost::OCTAVE;
-use super::fit::product;
+use super::doubt::doubt;
 use super::posterior::Found;
 use crate::category::Category;
-use crate::clarify::answered;
 use crate::clarify::choose::{about, choose};
-use crate::decision::{CANDIDATES, Decision, FEASIBLE, Kind, Outcome, Question, Reason, name};
+use crate::decision::{CANDIDATES, Decision, Kind, Outcome, Question, Reason, name};
 use crate::intent::{Intent, Parameter};
 use crate::judgement::{Judgement, bit};
 use crate::profile::{Profile, Threshold};
@@ -19,10 +17,6 @@ use crate::trace::Trace;
 
 /// An option is offered when its marginal is at least this.
 const OFFERED: f32 = 0.01;
-
-/// By how much an option that is not to be had may be clearer, at the noise that was heard, than the
-/// one that is: 90 to 1. Above it the person meant just that, and is told.
-const CLEARER: u32 = OCTAVE as u32 * 13 / 2;
 
 /// The outcome of a solved posterior; completes the trace. A question that may not be asked any more
 /// gives up.
@@ -70,14 +64,15 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
     if !spoken {
         return;
     }
-    let action_spoken = present(trace, Category::ACTION);
+    let action_spoken = trace.speaks_of(Category::ACTION);
     if let Some(found) = &found {
         let actions = trace.category(Category::ACTION).map(|word| word.merged());
         let action = actions.and_then(|p| p.get(usize::from(found.best.action)).copied());
         trace.belief = Belief {
+            posterior: found.posterior,
             action: action.unwrap_or(0.0),
             kinds,
-            ..found.belief
+            noise: found.noise,
         };
     }
     let Some(found) = found.filter(|_| action_spoken) else {
@@ -123,12 +118,6 @@ fn decide<const N: usize, const C: usize, const F: usize, const E: usize, const 
     decision.outcome = Outcome::Ask(question);
 }
 
-fn present<const N: usize, const C: usize>(trace: &Trace<C, N>, category: Category) -> bool {
-    trace
-        .category(category)
-        .is_some_and(|word| word.present > 0.0)
-}
-
 /// Adds an intent's parameters; gives how likely the options are that are not things.
 fn complete<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
     situation: Situation<'_, N, C, F, E, W>,
@@ -172,79 +161,6 @@ fn complete<const N: usize, const C: usize, const F: usize, const E: usize, cons
         }
     }
     likelihood
-}
-
-/// What speaks against an intent whatever its posterior: a parameter that nobody gave, a thing that
-/// does not fit well, and something else that is clearly meant but cannot be had.
-#[inline(never)]
-fn doubt<const N: usize, const C: usize, const F: usize, const E: usize, const W: usize>(
-    situation: Situation<'_, N, C, F, E, W>,
-    profile: &Profile,
-    found: &Found,
-    best: &Intent<C>,
-    trace: &Trace<C, N>,
-) -> Option<(Category, Reason)> {
-    if !profile.guarded {
-        return None;
-    }
-    let actions = situation.vocabulary.actions();
-    let action = actions.get(usize::from(best.action))?;
-    for q in action.signature.compulsory.iter() {
-        let category = Category::from_index(q)?;
-        // A word that is there may be too faint for any of its options to be the best.
-        let given = best.parameters.iter().any(|p| p.category == category);
-        if !present(trace, category) || !given {
-            return Some((category, Reason::Missing));
-        }
-    }
-    if let Some(gone) = answered::gone(situation, best, found.level) {
-        return Some(gone);
-    }
-    let clearest = |category: Category, chosen: u8| {
-        if answered::vouched(situation.observations, best, category, chosen) {
-            return None;
-        }
-        // At the first level errors are small or large by chance, which says nothing of what is meant.
-        let level = found.level.max(1);
-        let named = trace.evidence.named(category);
-        let named = named.get(..trace.category(category)?.merged().len())?;
-        let at = |o: u8| named.get(usize::from(o)).map(|costs| costs.at(level));
-        let least = (0_u8..)
-            .zip(named)
-            .min_by_key(|(_, costs)| costs.at(level))?;
-        let clearer = at(chosen)?.saturating_sub(least.1.at(level)) > CLEARER;
-        clearer.then_some(least.0)
-    };
-    for parameter in best.parameters.iter().filter(|p| p.category.is_entity()) {
-        let category = parameter.category;
-        let fits = |option| {
-            let thing = situation.scene.find(category, option)?;
-            Some(product(action.requirement(category), &thing.features) >= FEASIBLE)
-        };
-        if fits(parameter.option) != Some(true) {
-            return Some((category, Reason::Infeasible));
-        }
-        if let Some(meant) = clearest(category, parameter.option) {
-            match fits(meant) {
-                None => return Some((category, Reason::NotInScene)),
-                Some(false) => return Some((category, Reason::Infeasible)),
-                Some(true) => {}
-            }
-        }
-    }
-    let meant = clearest(Category::ACTION, best.action)?;
-    let meant = actions.get(usize::from(meant))?;
-    for category in [Category::OBJECT, Category::STORAGE] {
-        let can = |thing: &crate::scene::Entity<F>| {
-            thing.category == category
-                && product(meant.requirement(category), &thing.features) >= FEASIBLE
-        };
-        let needed = meant.signature.compulsory.contains(category.index());
-        if needed && !situation.scene.entities().iter().any(can) {
-            return Some((Category::ACTION, Reason::Infeasible));
-        }
-    }
-    None
 }
 
 /// What leads in a marginal; nothing is clear yet.

@@ -9,69 +9,12 @@
 //! such a word names, it names nothing of the intent. Levels and actions that are 2^11 times less likely
 //! than the best are left out.
 
-use super::belief::Belief;
-use super::cost::{Costs, MOST, weight};
-use super::fits::Fits;
+use super::cost::Costs;
+use super::factors::{Factors, Marginal, NEGLIGIBLE, Options};
 use super::level::{Level, Place, Weighed};
+use super::weight::weight;
 use super::{LEVELS, Levels};
 use crate::math;
-
-/// What a level may cost beside the best before it is left out, and an action beside the best.
-pub(super) const NEGLIGIBLE: u32 = 352;
-
-/// One category's options.
-#[derive(Clone, Copy)]
-pub struct Options<'a> {
-    /// Those that are weighed, in rising order.
-    pub live: &'a [u8],
-    /// What each of them costs.
-    pub costs: &'a [Costs],
-    /// One over their number, 1 when there are none.
-    pub per_count: f32,
-}
-
-impl<'a> Options<'a> {
-    /// Those of `live`, by whose places the costs are.
-    #[must_use]
-    pub fn new(live: &'a [u8], costs: &'a [Costs]) -> Self {
-        let per_count = 1.0 / live.len().max(1) as f32;
-        Self {
-            live,
-            costs: costs.get(..live.len()).unwrap_or(costs),
-            per_count,
-        }
-    }
-
-    /// The least costs of the live options, 0 when there are none.
-    #[must_use]
-    pub fn least(&self) -> Costs {
-        let mut least = Costs::all(if self.live.is_empty() { 0 } else { MOST });
-        for costs in self.costs {
-            least = least.least(*costs);
-        }
-        least
-    }
-}
-
-/// All that the posterior is made of.
-pub struct Posterior<'a> {
-    /// What the actions cost, their words' presence included.
-    pub deeds: Options<'a>,
-    /// Objects, then storages.
-    pub things: [Options<'a>; 2],
-    /// How well options fit.
-    pub fits: Fits<'a>,
-    /// What the other categories' best options cost at every level.
-    pub rest: [u32; LEVELS],
-}
-
-/// What a category's marginal posterior is written to, and room to work.
-pub struct Marginal<'a> {
-    /// The probability of every option.
-    pub of: &'a mut [f32],
-    /// Their weights at the level at hand.
-    pub weights: &'a mut [f32],
-}
 
 /// An action with its object and storage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,15 +30,17 @@ pub struct Triple {
 pub struct Found {
     /// The best intent.
     pub best: Triple,
-    /// How much of the posterior it holds, and at which noise.
-    pub belief: Belief,
+    /// How much of the posterior it holds, 0..=1.
+    pub posterior: f32,
+    /// The noise that was heard, as the mean level of all branches, 0..=3.
+    pub noise: f32,
     /// How much every level holds.
     pub shares: Levels,
     /// The level that holds most.
     pub level: usize,
 }
 
-impl Posterior<'_> {
+impl Factors<'_> {
     /// The best intent; the marginals of actions, objects and storages are filled in. Of `room`
     /// there must be as much as there are rows of each kind. `None` when nothing can be done.
     #[inline(never)]
@@ -150,11 +95,8 @@ impl Posterior<'_> {
         let (best, share) = self.best(&levels, &least)?;
         Some(Found {
             best: self.triple(&best)?,
-            belief: Belief {
-                posterior: math::clamp_unit(share * per_total),
-                noise,
-                ..Belief::NONE
-            },
+            posterior: math::clamp_unit(share * per_total),
+            noise,
             shares: levels.each_ref().map(|level| level.share * per_total),
             level: most.1,
         })

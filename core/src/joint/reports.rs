@@ -1,7 +1,10 @@
 //! What is reported by whom: the table of one sensor, and where it is among all tables.
 
-use super::sensors::{ELSEWHERE, quantise};
 use crate::category::Category;
+
+/// What a sensor without a table reports of every option but the one that is meant: the middle of
+/// the paper's similarity tables, 0.2 to 0.5.
+pub const ELSEWHERE: f32 = 0.3;
 
 /// Of what a table is. Where it begins follows from those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,4 +143,11 @@ impl<'a> Rows<'a> {
         }
         value
     }
+}
+
+/// A likelihood in 255ths.
+#[must_use]
+#[inline(always)]
+pub const fn quantise(likelihood: f32) -> u8 {
+    (likelihood * 255.0 + 0.5) as u8
 }

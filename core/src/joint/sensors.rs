@@ -4,13 +4,9 @@ use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 use super::reports::Place;
-pub use super::reports::{Rows, Sensor, Tables};
+pub use super::reports::{ELSEWHERE, Rows, Sensor, Tables, quantise};
 use crate::category::Category;
 use crate::sentence::MODALITIES;
-
-/// What a sensor without a table reports of every option but the one that is meant: the middle of
-/// the paper's similarity tables, 0.2 to 0.5.
-pub const ELSEWHERE: f32 = 0.3;
 
 /// How many sensors can be known: sixteen categories of four modalities, all that the largest build
 /// has.
@@ -187,13 +183,6 @@ fn check(modality: u8) -> Result<(), SensorError> {
     Err(SensorError::UnknownModality {
         capacity: MODALITIES as u8,
     })
-}
-
-/// A likelihood in 255ths.
-#[must_use]
-#[inline(always)]
-pub const fn quantise(likelihood: f32) -> u8 {
-    (likelihood * 255.0 + 0.5) as u8
 }
 
 #[cfg(test)]

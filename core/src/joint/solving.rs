@@ -2,13 +2,15 @@
 
 use heapless::Vec;
 
-use super::cost::{Costs, MOST, weight};
+use super::cost::{Costs, MOST};
 use super::element::Element;
 use super::evidence::Evidence;
+use super::factors::{Factors, Marginal, Options};
 use super::fits::{Fits, Kind};
 use super::likelihoods::Likely;
-use super::posterior::{Found, Marginal, Options, Posterior};
+use super::posterior::Found;
 use super::sensors::{Sensor, Tables};
+use super::weight::weight;
 use super::word::{self, Reading, Room};
 use super::{LEVELS, Levels};
 use crate::category::Category;
@@ -56,7 +58,7 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
         let [Some(object_fits), Some(storage_fits)] = [kinds.next(), kinds.next()] else {
             return None;
         };
-        let posterior = Posterior {
+        let factors = Factors {
             deeds: Options::new(live_actions, &self.work.sums),
             things: [
                 Options::new(live_objects, objects),
@@ -71,7 +73,7 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
         };
         let found = if confirmations.is_empty() {
             let [objects, storages] = &mut self.work.weighed;
-            posterior.solve([objects, storages], &mut marginals)?
+            factors.solve([objects, storages], &mut marginals)?
         } else {
             let heard = confirmations.iter().map(|answer| {
                 let [it, others] = yes_or_no(sensors, answer.likelihoods);
@@ -82,7 +84,7 @@ impl<const C: usize, const N: usize> Evidence<C, N> {
                 }
             });
             let heard: Vec<Heard, QUESTIONS> = heard.take(QUESTIONS).collect();
-            posterior.revise(&heard, &mut marginals)?
+            factors.revise(&heard, &mut marginals)?
         };
         for ((costs, marginal), q) in others.iter().zip(others_of).zip(3_usize..) {
             if !marginal.of.is_empty() {

@@ -10,7 +10,8 @@
 //! cells at once. That assumes samples that are independent, alike those met in use, and none of
 //! which was used by [`fit`]; it says nothing about another vocabulary, noise or kind of scene.
 
-use deictic_core::joint::belief::{Belief, KINDS, logit, shares};
+use deictic_core::joint::KINDS;
+use deictic_core::joint::belief::{Belief, logit, shares};
 
 use crate::density::six_digits;
 
@@ -87,8 +88,7 @@ impl Table {
         let row = |row: &[f64; KNOTS]| row.map(six_digits);
         let mut source = "//! Made by `deictic-eval calibrate`: do not edit.\n\
              \n\
-             use super::Levels;\n\
-             use super::belief::KINDS;\n"
+             use super::{KINDS, Levels};\n"
             .to_owned();
         let tables = [
             (

@@ -88,7 +88,7 @@ fn what_costs_all_alike_changes_nothing() {
         };
         let live_actions: Vec<u8> = (0..3).filter(|a| possible[usize::from(*a)] > 0.0).collect();
         let (deeds, objects, storages) = (costs(3), costs(N), costs(N));
-        let posterior = Posterior {
+        let factors = Factors {
             deeds: Options::new(&live_actions, &deeds),
             things: [
                 Options::new(live[0], &objects),
@@ -112,7 +112,7 @@ fn what_costs_all_alike_changes_nothing() {
                 weights: &mut weights[..],
             })
         });
-        let whole = posterior
+        let whole = factors
             .solve([&mut [Weighed::NONE; 3], &mut [Weighed::NONE; 3]], &mut a)
             .unwrap();
         let alike = |cost| Heard {
@@ -120,13 +120,13 @@ fn what_costs_all_alike_changes_nothing() {
             it: Costs::all(cost),
             others: Costs::all(cost),
         };
-        let revised = posterior.revise(&[alike(77), alike(0)], &mut b).unwrap();
+        let revised = factors.revise(&[alike(77), alike(0)], &mut b).unwrap();
         let close = |a: f32, b: f32| (a - b).abs() < 2e-3;
         // The product is searched at each level alone, which may miss what is best at none.
-        let gained = revised.belief.posterior - whole.belief.posterior;
+        let gained = revised.posterior - whole.posterior;
         assert!(gained > -2e-3, "{whole:?} {revised:?}");
         assert!(gained < 2e-3 || whole.best != revised.best);
-        assert!(close(whole.belief.noise, revised.belief.noise));
+        assert!(close(whole.noise, revised.noise));
         for (a, b) in a.iter().zip(&b) {
             assert!(
                 a.of.iter().zip(&*b.of).all(|(a, b)| close(*a, *b)),
@@ -138,8 +138,8 @@ fn what_costs_all_alike_changes_nothing() {
             others: Costs::all(100),
             ..alike(0)
         };
-        let sure = posterior.revise(&[yes], &mut b).unwrap();
+        let sure = factors.revise(&[yes], &mut b).unwrap();
         assert_eq!(sure.best, revised.best);
-        assert!(sure.belief.posterior >= revised.belief.posterior);
+        assert!(sure.posterior >= revised.posterior);
     }
 }

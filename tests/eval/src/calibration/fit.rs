@@ -1,6 +1,7 @@
 //! Platt's scaling by noise class and kinds of words, and the shape of the cut.
 
-use deictic_core::joint::belief::{Belief, KINDS, logit};
+use deictic_core::joint::KINDS;
+use deictic_core::joint::belief::{Belief, logit};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -62,7 +62,8 @@ pub fn shares(cell: &Cell, table: &Table, cut: &[f64; KNOTS]) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::calibration::{Believed, RISKS};
-    use deictic_core::joint::belief::{Belief, KINDS};
+    use deictic_core::joint::KINDS;
+    use deictic_core::joint::belief::Belief;
 
     #[test]
     fn binomial_sums() {
