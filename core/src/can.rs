@@ -16,81 +16,37 @@ pub const FROM_UNIT: u16 = 0x201;
 /// Stream bytes in a frame at most.
 pub const STREAM_BYTES: usize = 7;
 
+/// Bytes in a classic frame at most.
+pub const CLASSIC: usize = 8;
+
 /// Bytes in a frame of CAN FD at most.
 pub const FLEXIBLE: usize = 64;
 
-/// A classic frame.
+/// A frame with an identifier of 11 bits and `ROOM` bytes at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
+pub struct BusFrame<const ROOM: usize> {
     id: u16,
-    data: Vec<u8, 8>,
+    data: Vec<u8, ROOM>,
 }
 
-impl Frame {
-    /// A frame with this identifier, of 11 bits, and these at most eight bytes.
-    #[must_use]
-    pub fn new(id: u16, data: &[u8]) -> Option<Self> {
-        if id > 0x7ff {
-            return None;
-        }
-        let data = Vec::from_slice(data).ok()?;
-        Some(Self { id, data })
-    }
-
-    /// Its identifier.
-    #[must_use]
-    pub fn id(&self) -> u16 {
-        self.id
-    }
-
-    /// Its bytes.
-    #[must_use]
-    pub fn data(&self) -> &[u8] {
-        &self.data
-    }
-
-    /// A frame of `id` with the first of `bytes`, and how many it carries; `None` for no bytes.
-    #[must_use]
-    pub fn of_stream(id: u16, bytes: &[u8]) -> Option<(Self, usize)> {
-        let carried = bytes.len().min(STREAM_BYTES);
-        let bytes = bytes.get(..carried).filter(|b| !b.is_empty())?;
-        let mut data = [0; 8];
-        let (count, room) = data.split_first_mut()?;
-        *count = u8::try_from(carried).ok()?;
-        for (to, from) in room.iter_mut().zip(bytes) {
-            *to = *from;
-        }
-        Some((Self::new(id, &data)?, carried))
-    }
-
-    /// The bytes of a stream that it carries; none when it is not such a frame.
-    #[must_use]
-    pub fn stream(&self) -> &[u8] {
-        match self.data.split_first() {
-            Some((count, bytes)) => bytes.get(..usize::from(*count)).unwrap_or(&[]),
-            None => &[],
-        }
-    }
-}
+/// A classic frame.
+pub type Frame = BusFrame<CLASSIC>;
 
 /// A frame of CAN FD (ISO 11898-1:2015).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FlexibleFrame {
-    id: u16,
-    data: Vec<u8, FLEXIBLE>,
-}
+pub type FlexibleFrame = BusFrame<FLEXIBLE>;
 
-impl FlexibleFrame {
-    /// A frame with this identifier, of 11 bits, and these at most 64 bytes, with zeros up to the next length that such a
-    /// frame can have: 0 to 8, 12, 16, 20, 24, 32, 48, 64.
+impl<const ROOM: usize> BusFrame<ROOM> {
+    /// A frame with this identifier and these bytes, with zeros up to the next length that a frame can have: 0 to 8, and
+    /// with CAN FD 12, 16, 20, 24, 32, 48, 64. `None` when the identifier has more than 11 bits or there are too many
+    /// bytes.
     #[must_use]
     pub fn new(id: u16, data: &[u8]) -> Option<Self> {
         if id > 0x7ff {
             return None;
         }
-        let mut data: Vec<u8, FLEXIBLE> = Vec::from_slice(data).ok()?;
+        let mut data: Vec<u8, ROOM> = Vec::from_slice(data).ok()?;
         let length = match data.len() {
-            length @ 0..=8 => length,
+            length @ 0..=CLASSIC => length,
             length @ 9..=24 => length.next_multiple_of(4),
             25..=32 => 32,
             33..=48 => 48,
@@ -113,39 +69,28 @@ impl FlexibleFrame {
     }
 }
 
-/// A frame of either kind.
-pub trait BusFrame: Sized {
-    /// Bytes in it at most.
-    const ROOM: usize;
-
-    /// A frame with this identifier and these bytes; `None` when either does not fit.
-    fn of(id: u16, data: &[u8]) -> Option<Self>;
-
-    /// Its identifier and bytes.
-    fn parts(&self) -> (u16, &[u8]);
-}
-
-impl BusFrame for Frame {
-    const ROOM: usize = 8;
-
-    fn of(id: u16, data: &[u8]) -> Option<Self> {
-        Self::new(id, data)
+impl Frame {
+    /// A frame of `id` with the first of `bytes`, and how many it carries; `None` for no bytes.
+    #[must_use]
+    pub fn of_stream(id: u16, bytes: &[u8]) -> Option<(Self, usize)> {
+        let carried = bytes.len().min(STREAM_BYTES);
+        let bytes = bytes.get(..carried).filter(|b| !b.is_empty())?;
+        let mut data = [0; CLASSIC];
+        let (count, room) = data.split_first_mut()?;
+        *count = u8::try_from(carried).ok()?;
+        for (to, from) in room.iter_mut().zip(bytes) {
+            *to = *from;
+        }
+        Some((Self::new(id, &data)?, carried))
     }
 
-    fn parts(&self) -> (u16, &[u8]) {
-        (self.id, &self.data)
-    }
-}
-
-impl BusFrame for FlexibleFrame {
-    const ROOM: usize = FLEXIBLE;
-
-    fn of(id: u16, data: &[u8]) -> Option<Self> {
-        Self::new(id, data)
-    }
-
-    fn parts(&self) -> (u16, &[u8]) {
-        (self.id, &self.data)
+    /// The bytes of a stream that it carries; none when it is not such a frame.
+    #[must_use]
+    pub fn stream(&self) -> &[u8] {
+        match self.data.split_first() {
+            Some((count, bytes)) => bytes.get(..usize::from(*count)).unwrap_or(&[]),
+            None => &[],
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use deictic_core::align::Alignment;
-use deictic_core::can::{FlexibleFrame, Frame};
+use deictic_core::can::{FLEXIBLE, Frame};
 use deictic_core::category::{BitSet, Category};
 use deictic_core::clarify::choose::choose;
 use deictic_core::clarify::{Confirmation, gain};
@@ -251,7 +251,7 @@ fn lines() {
             black_box(line(&frame).len());
             black_box(assembler.take(&frame).is_some());
         }
-        for frame in frames::<FlexibleFrame>(sender, &packet) {
+        for frame in frames::<FLEXIBLE>(sender, &packet) {
             black_box((frame.id(), frame.data().len()));
             black_box(assembler.take(&frame).is_some());
         }

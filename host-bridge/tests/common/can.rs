@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use deictic_core::can::{FlexibleFrame, Frame};
+use deictic_core::can::{CLASSIC, FlexibleFrame};
 use deictic_core::command::field::{Id, Number};
 use deictic_core::command::message::{Halt, ToRobot};
 use deictic_core::command::parcel::{Sender, frames};
@@ -34,7 +34,7 @@ pub fn halt(interface: &str) {
     let halt = ToRobot::Halt(Halt {
         id: Id { run: 0, number },
     });
-    for frame in frames::<Frame>(Sender::Host, &halt.packet()) {
+    for frame in frames::<CLASSIC>(Sender::Host, &halt.packet()) {
         let data: String = frame.data().iter().map(|b| format!("{b:02X}")).collect();
         run(
             "cansend",

@@ -1,7 +1,7 @@
 //! The robot's command set on its way: messages in packets, packets in CAN frames of either kind, frames in an adapter's lines. What
 //! is read is what was said, whatever else was on the bus.
 
-use deictic_core::can::{BusFrame, FlexibleFrame, Frame};
+use deictic_core::can::{BusFrame, CLASSIC, FLEXIBLE, Frame};
 use deictic_core::command::Packet;
 use deictic_core::command::message::{FromRobot, ToRobot};
 use deictic_core::command::parcel::{Assembler, Sender, frames};
@@ -16,9 +16,9 @@ pub fn run(bytes: &[u8]) {
     let mut source = Source::new(bytes);
     match source.small(5) {
         0 => packets(&mut source),
-        1 => bus::<Frame>(&mut source),
+        1 => bus::<CLASSIC>(&mut source),
         2 => lines(&mut source),
-        3 => bus::<FlexibleFrame>(&mut source),
+        3 => bus::<FLEXIBLE>(&mut source),
         _ => sealed(&mut source),
     }
 }
@@ -150,7 +150,7 @@ fn sender(source: &mut Source<'_>) -> Sender {
 }
 
 /// Packets in frames of which some are lost, doubled or foreign: every one that comes out is one that was sent.
-fn bus<F: BusFrame>(source: &mut Source<'_>) {
+fn bus<const ROOM: usize>(source: &mut Source<'_>) {
     let sender = sender(source);
     let mut assembler = Assembler::new(sender);
     let mut sent: Vec<Packet> = Vec::new();
@@ -161,7 +161,7 @@ fn bus<F: BusFrame>(source: &mut Source<'_>) {
         let faults = source.byte();
         let mut complete = true;
         sent.push(packet.clone());
-        for frame in frames::<F>(sender, &packet) {
+        for frame in frames::<ROOM>(sender, &packet) {
             let fault = if faults < 128 { 0 } else { source.small(8) };
             let times = match fault {
                 1 => 0,
@@ -172,7 +172,8 @@ fn bus<F: BusFrame>(source: &mut Source<'_>) {
             if fault == 3 {
                 let id = source.word() as u16 & 0x7ff;
                 let n = source.small(9);
-                let foreign = F::of(id, source.bytes(usize::from(n))).expect("it fits");
+                let foreign =
+                    BusFrame::<ROOM>::new(id, source.bytes(usize::from(n))).expect("it fits");
                 // A foreign frame under one of our identifiers is not ours to tell apart here.
                 if sender.layouts().iter().all(|l| l.id != id) && id != sender.long_id() {
                     assert_eq!(assembler.take(&foreign), None);

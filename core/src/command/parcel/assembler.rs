@@ -41,8 +41,11 @@ impl Assembler {
 
     /// Takes a frame and gives the message that it completes. Frames of others on the bus give
     /// nothing.
-    pub fn take(&mut self, frame: &impl BusFrame) -> Option<Result<Packet, ParcelError>> {
-        let (id, data) = frame.parts();
+    pub fn take<const ROOM: usize>(
+        &mut self,
+        frame: &BusFrame<ROOM>,
+    ) -> Option<Result<Packet, ParcelError>> {
+        let (id, data) = (frame.id(), frame.data());
         if id == self.sender.long_id() {
             return self.take_long(data).transpose();
         }

@@ -1,25 +1,22 @@
 //! From a message to frames.
 
-use core::marker::PhantomData;
-
 use heapless::Vec;
 
 use super::{CARRIED, CRC_16, FIRST, NEXT, Sender, WHOLE, check_of};
 use crate::can::BusFrame;
 use crate::command::{Packet, SEALED, SHORT};
 
-/// The frames of kind `F` that carry a message.
-pub struct Frames<F> {
+/// The frames of `ROOM` bytes that carry a message.
+pub struct Frames<const ROOM: usize> {
     id: u16,
     bytes: Vec<u8, CARRIED>,
     at: usize,
     sequence: u8,
-    kind: PhantomData<F>,
 }
 
 /// Puts a message of `sender` into frames, classic ones or those of CAN FD.
 #[must_use]
-pub fn frames<F: BusFrame>(sender: Sender, packet: &Packet) -> Frames<F> {
+pub fn frames<const ROOM: usize>(sender: Sender, packet: &Packet) -> Frames<ROOM> {
     let mut bytes = Vec::new();
     let short = packet.bytes.len() <= SHORT && packet.id & SEALED == 0;
     // There is room for the longest packet and its four further bytes.
@@ -38,33 +35,29 @@ pub fn frames<F: BusFrame>(sender: Sender, packet: &Packet) -> Frames<F> {
         bytes,
         at: 0,
         sequence: 0,
-        kind: PhantomData,
     }
 }
 
-/// The longest frame there is.
-const ROOM: usize = crate::can::FLEXIBLE;
+impl<const ROOM: usize> Iterator for Frames<ROOM> {
+    type Item = BusFrame<ROOM>;
 
-impl<F: BusFrame> Iterator for Frames<F> {
-    type Item = F;
-
-    fn next(&mut self) -> Option<F> {
+    fn next(&mut self) -> Option<Self::Item> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let length = self.bytes.len();
         if length <= 8 {
-            let frame = F::of(self.id, rest);
+            let frame = BusFrame::new(self.id, rest);
             self.at = length;
             return frame;
         }
         let [high, low] = u16::try_from(length).unwrap_or(0).to_be_bytes();
         let head: &[u8] = if self.at > 0 {
             &[NEXT | (self.sequence & 0x0f)]
-        } else if length.saturating_add(2) <= F::ROOM {
+        } else if length.saturating_add(2) <= ROOM {
             &[WHOLE, low]
         } else {
             &[FIRST | high, low]
         };
-        let carried = F::ROOM.saturating_sub(head.len()).min(rest.len());
+        let carried = ROOM.saturating_sub(head.len()).min(rest.len());
         let mut data: Vec<u8, ROOM> = Vec::new();
         data.extend_from_slice(head).ok()?;
         data.extend_from_slice(rest.get(..carried)?).ok()?;
@@ -73,6 +66,6 @@ impl<F: BusFrame> Iterator for Frames<F> {
         }
         self.at = self.at.saturating_add(carried);
         self.sequence = self.sequence.wrapping_add(1);
-        F::of(self.id, &data)
+        BusFrame::new(self.id, &data)
     }
 }

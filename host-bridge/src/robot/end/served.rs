@@ -4,7 +4,7 @@ use std::io::{self, ErrorKind};
 use std::net::{IpAddr, TcpListener};
 use std::time::{Duration, Instant};
 
-use deictic_core::can::{BusFrame, Frame};
+use deictic_core::can::{BusFrame, CLASSIC};
 use deictic_core::command::Packet;
 use deictic_core::command::parcel::Sender;
 use deictic_core::command::seal::{Heard, ON_A_BUS, ON_A_STREAM};
@@ -145,13 +145,13 @@ impl Listener {
     }
 }
 
-fn on_bus<F: BusFrame + 'static>(bus: Box<dyn bus::Bus<F>>) -> Box<dyn Carrier> {
+fn on_bus<const ROOM: usize>(bus: Box<dyn bus::Bus<BusFrame<ROOM>>>) -> Box<dyn Carrier> {
     Box::new(OnBus::new(bus, Sender::Robot))
 }
 
 fn on_wire(wire: Box<dyn Wire>, adapter: bool) -> Box<dyn Carrier> {
     if adapter {
-        on_bus::<Frame>(Box::new(bus::Adapter::new(wire)))
+        on_bus::<CLASSIC>(Box::new(bus::Adapter::new(wire)))
     } else {
         Box::new(OnWire::new(wire))
     }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::io;
 use std::time::{Duration, Instant};
 
-use deictic_core::can::{BusFrame, Frame};
+use deictic_core::can::{BusFrame, CLASSIC};
 use deictic_core::command::Packet;
 use deictic_core::command::letter::Letters;
 use deictic_core::command::parcel::{Assembler, Sender, frames};
@@ -32,17 +32,17 @@ pub trait Carrier: Send {
 }
 
 /// Packets in CAN frames, classic ones or those of CAN FD.
-pub struct OnBus<F = Frame> {
-    bus: Box<dyn Bus<F>>,
+pub struct OnBus<const ROOM: usize = CLASSIC> {
+    bus: Box<dyn Bus<BusFrame<ROOM>>>,
     side: Sender,
     assembler: Assembler,
     lost: u64,
 }
 
-impl<F> OnBus<F> {
+impl<const ROOM: usize> OnBus<ROOM> {
     /// The end of `side` on this bus.
     #[must_use]
-    pub fn new(bus: Box<dyn Bus<F>>, side: Sender) -> Self {
+    pub fn new(bus: Box<dyn Bus<BusFrame<ROOM>>>, side: Sender) -> Self {
         let other = match side {
             Sender::Host => Sender::Robot,
             Sender::Robot => Sender::Host,
@@ -56,7 +56,7 @@ impl<F> OnBus<F> {
     }
 }
 
-impl<F: BusFrame> Carrier for OnBus<F> {
+impl<const ROOM: usize> Carrier for OnBus<ROOM> {
     fn send(&mut self, packet: &Packet) -> io::Result<()> {
         for frame in frames(self.side, packet) {
             self.bus.send(&frame)?;
