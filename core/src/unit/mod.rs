@@ -10,6 +10,7 @@
 pub mod hand;
 pub mod loading;
 pub mod pairing;
+mod seeing;
 pub mod sensing;
 mod taking;
 pub mod taught;
