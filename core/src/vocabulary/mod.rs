@@ -5,11 +5,13 @@
 //! hash over them, so that both sides can tell that they mean the same words.
 
 mod action;
+mod check;
 mod error;
 
 use heapless::Vec;
 
-use crate::category::{Category, CategorySet};
+use crate::category::Category;
+use check::saturate;
 
 pub use action::{Action, Requirement, Signature};
 pub use error::VocabularyError;
@@ -106,7 +108,7 @@ impl<const N: usize, const C: usize, const F: usize> Vocabulary<N, C, F> {
                 capacity: saturate(F.min(32)),
             });
         }
-        check_actions(actions, parameters, features, stop)?;
+        check::actions(actions, parameters, features, stop)?;
         self.clear();
         self.actions
             .extend_from_slice(actions)
@@ -171,60 +173,15 @@ impl<const N: usize, const C: usize, const F: usize> Vocabulary<N, C, F> {
     }
 }
 
-/// Checks what actions take and need against what there is.
-fn check_actions(
-    actions: &[Action],
-    parameters: &[u8],
-    features: u8,
-    stop: Option<u8>,
-) -> Result<(), VocabularyError> {
-    let mut known = CategorySet::EMPTY;
-    for (&count, q) in parameters.iter().zip(1..) {
-        if count > 0 {
-            known = known.with(q);
-        }
-    }
-    for (i, action) in actions.iter().enumerate() {
-        let at = saturate(i);
-        let Signature {
-            compulsory,
-            voluntary,
-        } = action.signature;
-        if compulsory.union(voluntary).0 & !known.0 != 0 {
-            return Err(VocabularyError::UnknownCategory { action: at });
-        }
-        if !compulsory.intersection(voluntary).is_empty() {
-            return Err(VocabularyError::Contradiction { action: at });
-        }
-        for need in [action.object, action.storage] {
-            if !need.wanted.union(need.unwanted).fits(usize::from(features)) {
-                return Err(VocabularyError::UnknownFeature { action: at });
-            }
-            if !need.wanted.intersection(need.unwanted).is_empty() {
-                return Err(VocabularyError::Contradiction { action: at });
-            }
-        }
-    }
-    match stop.map(|stop| actions.get(usize::from(stop))) {
-        None => Ok(()),
-        Some(Some(action)) if action.signature.compulsory.is_empty() => Ok(()),
-        Some(_) => Err(VocabularyError::BadStop),
-    }
-}
-
-/// A count as a byte, 255 when it is larger.
-fn saturate(count: usize) -> u8 {
-    u8::try_from(count).unwrap_or(u8::MAX)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::category::BitSet;
+    use crate::category::{BitSet, CategorySet};
 
     type Small = Vocabulary<4, 4, 8>;
 
-    fn pick() -> Action {
+    /// Is done to an object with the second feature and without the first.
+    pub(super) fn pick() -> Action {
         Action {
             signature: Signature {
                 compulsory: [Category::OBJECT].into_iter().collect(),
@@ -271,32 +228,6 @@ mod tests {
         assert_eq!(
             Small::new(&[pick()], &[1], 9, None, 0),
             Err(VocabularyError::TooManyFeatures { capacity: 8 })
-        );
-    }
-
-    #[test]
-    fn what_contradicts_itself_is_refused_with_its_place() {
-        assert_eq!(
-            Small::new(&[Action::default(), pick()], &[], 2, None, 0),
-            Err(VocabularyError::UnknownCategory { action: 1 })
-        );
-        assert_eq!(
-            Small::new(&[pick()], &[2], 1, None, 0),
-            Err(VocabularyError::UnknownFeature { action: 0 })
-        );
-        let mut torn = pick();
-        torn.signature.voluntary = torn.signature.compulsory;
-        assert_eq!(
-            Small::new(&[torn], &[2], 2, None, 0),
-            Err(VocabularyError::Contradiction { action: 0 })
-        );
-        assert_eq!(
-            Small::new(&[pick()], &[2], 2, Some(0), 0),
-            Err(VocabularyError::BadStop)
-        );
-        assert_eq!(
-            Small::new(&[pick()], &[2], 2, Some(9), 0),
-            Err(VocabularyError::BadStop)
         );
     }
 }
