@@ -4,7 +4,8 @@
 use serde::{Serialize, de::DeserializeOwned};
 
 use super::counters::count;
-use super::seal::{Key, Nonces, Seal, TAG, Way};
+use super::lock::Lock;
+use super::seal::{Key, Nonces, Way};
 use super::stuffing::{FrameError, FrameReader, FrameWriter, Outbox};
 
 pub use super::counters::Counters;
@@ -40,17 +41,6 @@ pub struct Link<const FRAME: usize> {
     lock: Lock,
 }
 
-/// What a link asks of frames.
-#[derive(Debug)]
-enum Lock {
-    /// Nothing: there is no key.
-    None,
-    /// Nobody has shown to have the key yet.
-    Shut(Key, Way),
-    /// Both have, and every frame is sealed.
-    Sealed(Seal),
-}
-
 impl<const FRAME: usize> Default for Link<FRAME> {
     fn default() -> Self {
         Self::new()
@@ -79,11 +69,7 @@ impl<const FRAME: usize> Link<FRAME> {
     /// The key, where there is one.
     #[must_use]
     pub fn key(&mut self) -> Option<&mut Key> {
-        match &mut self.lock {
-            Lock::None => None,
-            Lock::Shut(key, _) => Some(key),
-            Lock::Sealed(seal) => Some(seal.key()),
-        }
+        self.lock.key()
     }
 
     /// Whether there is a key that the other end has not shown to have.
@@ -94,20 +80,12 @@ impl<const FRAME: usize> Link<FRAME> {
 
     /// Ends the conversation with these seals; both ends are to prove anew.
     pub fn shut(&mut self) {
-        if let Lock::Sealed(seal) = &mut self.lock {
-            let way = seal.way();
-            self.lock = Lock::Shut(seal.key().clone(), way);
-        }
+        self.lock.shut();
     }
 
     /// Both have shown to have the key: every frame is sealed from now on.
     pub fn seal(&mut self, nonces: Nonces) {
-        let (key, way) = match &mut self.lock {
-            Lock::None => return,
-            Lock::Shut(key, way) => (key.clone(), *way),
-            Lock::Sealed(seal) => (seal.key().clone(), seal.way()),
-        };
-        self.lock = Lock::Sealed(Seal::new(key, nonces, way));
+        self.lock.seal(nonces);
     }
 
     /// What has become of frames so far.
@@ -132,10 +110,7 @@ impl<const FRAME: usize> Link<FRAME> {
                 return None;
             }
         };
-        let (body, sealed) = match &mut self.lock {
-            Lock::Sealed(seal) => opened(seal, self.expected, contents),
-            Lock::None | Lock::Shut(..) => (contents, false),
-        };
+        let (body, sealed) = self.lock.open(self.expected, contents);
         let decoded = postcard::take_from_bytes::<(u16, M)>(body);
         let may_be_plain = |message: &M| match self.lock {
             Lock::None => true,
@@ -201,25 +176,6 @@ impl<const FRAME: usize> Link<FRAME> {
         self.next = self.next.wrapping_add(1);
         count(&mut self.counters.sent);
         true
-    }
-}
-
-/// The body of a sealed frame, and that it is one; or all of the contents when its tag is not that of its number.
-#[inline(never)]
-fn opened<'a>(seal: &mut Seal, expected: u64, contents: &'a [u8]) -> (&'a [u8], bool) {
-    let Some((body, tag)) = contents.split_last_chunk::<TAG>() else {
-        return (contents, false);
-    };
-    let Ok((sequence, _)) = postcard::take_from_bytes::<u16>(body) else {
-        return (contents, false);
-    };
-    // The number that is nearest to the expected one, as a duplicate is behind it.
-    let ahead = sequence.wrapping_sub(expected as u16) as i16;
-    let counter = expected.wrapping_add_signed(i64::from(ahead));
-    if seal.is_sound(counter, body, tag) {
-        (body, true)
-    } else {
-        (contents, false)
     }
 }
 

@@ -12,6 +12,7 @@
 mod counters;
 pub mod hand;
 pub mod link;
+mod lock;
 pub mod message;
 pub mod seal;
 pub mod stuffing;

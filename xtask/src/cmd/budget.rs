@@ -49,7 +49,7 @@ const SEAL: [&str; 4] = [
     "hmac::",
     "sha2::",
     "protocol::seal::",
-    "protocol::link::opened",
+    "protocol::lock::opened",
 ];
 
 /// What the stack's figure rests on besides the machine code.
