@@ -1,140 +1,26 @@
-//! From likelihoods to one of three outcomes: execute, ask or repeat (the paper, Decision over the
-//! actions for interaction mode; METHOD, section 4).
+//! What speaks against executing an intent, and the question that it leads to.
 
 use heapless::Vec;
 
-pub use crate::decision::{CANDIDATES, Decision, FEASIBLE, Kind, Outcome, Question, Reason};
-
+use super::room::Room;
 use crate::category::Category;
-use crate::decision::name;
+use crate::decision::{FEASIBLE, Kind, Question, Reason, name};
 use crate::feasibility::alignment;
-use crate::intent::{Intent, Parameter};
+use crate::intent::Intent;
 use crate::judgement::{Judgement, bit};
-use crate::profile::{Profile, SeveralClear, Threshold};
-use crate::scene::Scene;
+use crate::profile::{SeveralClear, Threshold};
 use crate::sentence::ABSENT_BELOW;
-use crate::trace::{CategoryTrace, Trace};
-use crate::vocabulary::Vocabulary;
-
-/// The outcome of a filled trace.
-pub fn decide<const N: usize, const C: usize, const F: usize, const E: usize>(
-    vocabulary: &Vocabulary<N, C, F>,
-    scene: &Scene<E, F>,
-    profile: &Profile,
-    trace: &Trace<C, N>,
-) -> Decision<C> {
-    let room = Room {
-        vocabulary,
-        scene,
-        profile,
-        trace,
-    };
-    let Some(action) = room.action().judgement.best else {
-        return Decision {
-            outcome: room.without_action(),
-            best: None,
-        };
-    };
-    let best = room.intent(action);
-    // Each made where it stays: an outcome that is moved into its decision costs 400 instructions.
-    match room.doubt(&best) {
-        Doubt::None => Decision {
-            outcome: Outcome::Execute(best.clone()),
-            best: Some(best),
-        },
-        Doubt::Ask(question) => Decision {
-            outcome: Outcome::Ask(question),
-            best: Some(best),
-        },
-        Doubt::Everything => Decision {
-            outcome: Outcome::Repeat,
-            best: Some(best),
-        },
-    }
-}
 
 /// What speaks against executing an intent.
-enum Doubt {
+pub(super) enum Doubt {
     None,
     Ask(Question),
     Everything,
 }
 
-/// All that a decision looks at.
-struct Room<'a, const N: usize, const C: usize, const F: usize, const E: usize> {
-    vocabulary: &'a Vocabulary<N, C, F>,
-    scene: &'a Scene<E, F>,
-    profile: &'a Profile,
-    trace: &'a Trace<C, N>,
-}
-
 impl<const N: usize, const C: usize, const F: usize, const E: usize> Room<'_, N, C, F, E> {
-    fn word(&self, category: usize) -> Option<&CategoryTrace<N>> {
-        self.trace.categories().get(category)
-    }
-
-    fn action(&self) -> &CategoryTrace<N> {
-        const { assert!(C > 0, "the action is a category") };
-        let [first, ..] = self.trace.categories() else {
-            return &CategoryTrace::NONE;
-        };
-        first
-    }
-
-    /// The action with the best option of every category of its signature that was expressed.
-    fn intent(&self, action: u8) -> Intent<C> {
-        let mut intent = Intent {
-            action,
-            parameters: Vec::new(),
-        };
-        self.complete(&mut intent);
-        intent
-    }
-
-    /// Adds an action's parameters to an intent without any. Apart, so that [`Room::intent`] has
-    /// nothing to move.
-    #[inline(never)]
-    fn complete(&self, intent: &mut Intent<C>) {
-        let Some(known) = self.vocabulary.actions().get(usize::from(intent.action)) else {
-            return;
-        };
-        let expressed = known.signature.compulsory.union(known.signature.voluntary);
-        for q in expressed.iter() {
-            let (Some(word), Some(category)) = (self.word(q), Category::from_index(q)) else {
-                continue;
-            };
-            if let Some(option) = word.judgement.best {
-                let quantity = word.quantity;
-                // At most one parameter per category, and there are C categories.
-                let _ = intent.parameters.push(Parameter {
-                    category,
-                    option,
-                    quantity,
-                });
-            }
-        }
-    }
-
-    /// No action word: with parameters the action is asked for, without anything a repetition.
-    fn without_action(&self) -> Outcome<C> {
-        if self
-            .trace
-            .categories()
-            .iter()
-            .all(|word| word.judgement.best.is_none())
-        {
-            return Outcome::Repeat;
-        }
-        Outcome::Ask(Question {
-            kind: Kind::Which,
-            action: None,
-            category: Category::ACTION,
-            reason: Reason::Missing,
-            candidates: Vec::new(),
-        })
-    }
-
-    fn doubt(&self, intent: &Intent<C>) -> Doubt {
+    /// What speaks against executing this intent.
+    pub(super) fn doubt(&self, intent: &Intent<C>) -> Doubt {
         let word = self.action();
         let heard = self
             .trace
