@@ -4,6 +4,7 @@ mod answer;
 mod arriving;
 mod ending;
 mod input;
+mod refusing;
 
 use std::collections::VecDeque;
 
