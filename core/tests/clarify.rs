@@ -1,12 +1,15 @@
 //! Questions and answers of the joint model.
 
+#[path = "common/any.rs"]
+mod any;
 mod common;
 
+use any::any_word;
 use common::*;
 use deictic_core::board::{Entity, Observations, Scene, Sentence, Trace, Word};
 use deictic_core::category::Category;
 use deictic_core::clarify::{Confirmation, QUESTIONS, gain};
-use deictic_core::decide::{Decision, Kind, Outcome, Reason};
+use deictic_core::decide::{Decision, Kind, Outcome, Question, Reason};
 use deictic_core::fuse::{Situation, fuse};
 use deictic_core::joint::Tables;
 use deictic_core::joint::posterior::Triple;
@@ -98,10 +101,22 @@ fn two_things() -> Scene {
     scene
 }
 
-prop_compose! {
-    fn any_word(category: Category, options: usize)(
-        likelihoods in proptest::collection::vec(prop_oneof![4 => 0.0_f32..=1.0, 1 => Just(0.0), 1 => Just(1.0)], options),
-    ) -> Word { word(category, &likelihoods) }
+/// The same without one of them.
+fn two_things_but(gone: u8) -> Scene {
+    let mut scene = Scene::new(2);
+    let there = two_things();
+    let is_gone = |t: &&Entity| (t.category, t.option) == (Category::OBJECT, gone);
+    for thing in there.entities().iter().filter(|t| !is_gone(t)) {
+        scene.push(thing.clone(), &vocabulary()).unwrap();
+    }
+    scene
+}
+
+fn question(decision: Decision<BOARD>) -> Question {
+    match decision.outcome {
+        Outcome::Ask(question) => question,
+        other => panic!("not a question: {other:?}"),
+    }
 }
 
 prop_compose! {
@@ -220,20 +235,8 @@ fn the_answer_is_added_to_what_was_said_and_done() {
 #[test]
 fn an_answer_is_held_against_the_scene_as_it_is_now() {
     let talk = Talk::new(&push_something(), 2).answer(clear(Category::OBJECT, BOX, OBJECTS));
-    let mut without = Scene::new(2);
-    let left = two_things();
-    for thing in left
-        .entities()
-        .iter()
-        .filter(|t| (t.category, t.option) != (Category::OBJECT, BOX))
-    {
-        without.push(thing.clone(), &vocabulary()).unwrap();
-    }
-    let (decision, _) = talk.decide(&without);
-    let Outcome::Ask(question) = decision.outcome else {
-        panic!("{decision:?}")
-    };
-    assert_eq!(question.reason, Reason::NotInScene);
+    let (decision, _) = talk.decide(&two_things_but(BOX));
+    assert_eq!(question(decision).reason, Reason::NotInScene);
 }
 
 #[test]
@@ -243,17 +246,8 @@ fn a_yes_to_what_is_gone_is_no_yes_to_something_else() {
         things: [Some(CAN), None],
     };
     let talk = Talk::new(&push_something(), 2).confirm(can, [1.0, 0.3]);
-    let mut without = Scene::new(2);
-    let left = two_things();
-    let is_can = |t: &&Entity| (t.category, t.option) == (Category::OBJECT, CAN);
-    for thing in left.entities().iter().filter(|t| !is_can(t)) {
-        without.push(thing.clone(), &vocabulary()).unwrap();
-    }
-    let (decision, _) = talk.decide(&without);
-    let Outcome::Ask(question) = decision.outcome else {
-        panic!("{decision:?}")
-    };
-    assert_eq!(question.reason, Reason::NotInScene);
+    let (decision, _) = talk.decide(&two_things_but(CAN));
+    assert_eq!(question(decision).reason, Reason::NotInScene);
 }
 
 #[test]
@@ -285,10 +279,7 @@ fn answers_that_say_nothing_end_in_giving_up() {
 fn a_question_is_a_yes_or_no_where_that_helps_most() {
     // All is as good as sure but one thing, so that a word says as much as a name.
     let (decision, _) = Talk::new(&push_something(), 2).decide(&two_things());
-    let Outcome::Ask(question) = decision.outcome else {
-        panic!("{decision:?}")
-    };
-    assert_eq!(question.kind, Kind::Confirm);
+    assert_eq!(question(decision).kind, Kind::Confirm);
 }
 
 #[test]

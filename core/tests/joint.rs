@@ -1,7 +1,10 @@
 //! The joint model: what holds for any input, and what it must never do.
 
+#[path = "common/any.rs"]
+mod any;
 mod common;
 
+use any::{any_scene, any_word};
 use common::*;
 use deictic_core::board::{Observations, Scene, Sentence, Trace, Vocabulary, Word};
 use deictic_core::category::Category;
@@ -40,41 +43,8 @@ fn decide_joint(
     (decision, trace)
 }
 
-prop_compose! {
-    fn any_word(category: Category, options: usize)(
-        likelihoods in proptest::collection::vec(prop_oneof![4 => 0.0_f32..=1.0, 1 => Just(0.0), 1 => Just(1.0)], options),
-        absent in proptest::bool::weighted(0.2),
-    ) -> Word {
-        if absent { Word::ABSENT } else { Word::certain(category, &likelihoods).unwrap() }
-    }
-}
-
-prop_compose! {
-    fn any_sentence(modality: u8)(
-        action in any_word(Category::ACTION, 9),
-        object in any_word(Category::OBJECT, 5),
-        storage in any_word(Category::STORAGE, 4),
-    ) -> Sentence {
-        sentence(modality, &[action, object, storage])
-    }
-}
-
-prop_compose! {
-    fn any_scene()(
-        features in proptest::collection::vec(proptest::collection::vec(
-            prop_oneof![0.0_f32..=1.0, Just(0.0), Just(1.0)], 10), 9),
-        there in proptest::collection::vec(any::<bool>(), 9),
-    ) -> Scene {
-        let vocabulary = vocabulary();
-        let mut scene = Scene::new(1);
-        for (i, features) in features.iter().enumerate().filter(|(i, _)| there[*i]) {
-            let (category, option) = if i < 5 { (Category::OBJECT, i) } else { (Category::STORAGE, i - 5) };
-            let mut thing = entity(category, option as u8, &[]);
-            thing.features = features.iter().copied().collect();
-            scene.push(thing, &vocabulary).unwrap();
-        }
-        scene
-    }
+fn any_sentence(modality: u8) -> impl Strategy<Value = Sentence> {
+    any::any_sentence(modality, any_word)
 }
 
 proptest! {

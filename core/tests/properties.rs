@@ -1,7 +1,10 @@
 //! What holds for any input.
 
+#[path = "common/any.rs"]
+mod any;
 mod common;
 
+use any::{any_scene, likelihoods};
 use common::*;
 use deictic_core::board::{Scene, Sentence, Trace, Word};
 use deictic_core::category::Category;
@@ -17,41 +20,13 @@ fn word_of(category: Category, likelihoods: Vec<f32>, certainty: f32) -> Word {
     Word::new(&categories, &likelihoods).unwrap()
 }
 
-prop_compose! {
-    fn any_word(category: Category, options: usize)(
-        likelihoods in proptest::collection::vec(0.0_f32..=1.0, options),
-        certainty in 0.5_f32..=1.0,
-        absent in proptest::bool::weighted(0.2),
-    ) -> Word {
-        if absent { Word::ABSENT } else { word_of(category, likelihoods, certainty) }
-    }
+fn any_word(category: Category, options: usize) -> impl Strategy<Value = Word> {
+    (likelihoods(options), 0.5_f32..=1.0)
+        .prop_map(move |(likelihoods, certainty)| word_of(category, likelihoods, certainty))
 }
 
-prop_compose! {
-    fn any_sentence(modality: u8)(
-        action in any_word(Category::ACTION, 9),
-        object in any_word(Category::OBJECT, 5),
-        storage in any_word(Category::STORAGE, 4),
-    ) -> Sentence {
-        sentence(modality, &[action, object, storage])
-    }
-}
-
-prop_compose! {
-    fn any_scene()(
-        features in proptest::collection::vec(proptest::collection::vec(0.0_f32..=1.0, 10), 9),
-        there in proptest::collection::vec(any::<bool>(), 9),
-    ) -> Scene {
-        let vocabulary = vocabulary();
-        let mut scene = Scene::new(1);
-        for (i, features) in features.iter().enumerate().filter(|(i, _)| there[*i]) {
-            let (category, option) = if i < 5 { (Category::OBJECT, i) } else { (Category::STORAGE, i - 5) };
-            let mut thing = entity(category, option as u8, &[]);
-            thing.features = features.iter().copied().collect();
-            scene.push(thing, &vocabulary).unwrap();
-        }
-        scene
-    }
+fn any_sentence(modality: u8) -> impl Strategy<Value = Sentence> {
+    any::any_sentence(modality, any_word)
 }
 
 fn any_profile() -> impl Strategy<Value = Profile> {
