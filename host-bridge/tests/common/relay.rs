@@ -80,6 +80,10 @@ impl Relay {
             Arc::new(AtomicBool::new(true)),
             Arc::<AtomicBool>::default(),
         );
+        let terminal = match &socket {
+            Socket::Port(_) => None,
+            Socket::Terminal(name) => Some(name.clone()),
+        };
         let (is_plugged, is_over) = (Arc::clone(&plugged), Arc::clone(&over));
         let thread = thread::spawn(move || {
             while !is_over.load(Ordering::Relaxed) {
@@ -95,6 +99,10 @@ impl Relay {
             _folder: folder,
         };
         thread::sleep(Duration::from_millis(50));
+        // On a busy machine the terminal may not be there by then.
+        while terminal.as_ref().is_some_and(|name| !name.exists()) {
+            thread::sleep(Duration::from_millis(5));
+        }
         relay
     }
 
