@@ -27,6 +27,7 @@ mod growth;
 mod guest;
 mod moonshine;
 mod process;
+mod python;
 mod qemu;
 mod robots;
 mod toolchain;

@@ -1,11 +1,11 @@
 //! Moonshine, the better recogniser of speech: a model and its runtime in one package (90 MB from PyPI).
 
 use std::path::PathBuf;
-use std::process::Command;
 
 use anyhow::{Context, Result};
 
 use crate::process;
+use crate::python::Environment;
 
 /// The release that the recogniser was tested with. Later ones fetch their models when they are run.
 const PACKAGE: &str = "moonshine-voice==0.0.59";
@@ -20,12 +20,9 @@ pub fn install() -> Result<PathBuf> {
         return Ok(place);
     }
     eprintln!("installing {PACKAGE}");
-    let python = process::target().join("moonshine-python");
-    process::run(Command::new("python3").args(["-m", "venv"]).arg(&python))
-        .context("Python's venv is needed: `apt-get install python3-venv`")?;
-    let mut pip = Command::new(python.join("bin/pip"));
-    pip.args(["install", "--quiet", "--retries", "1", "--no-deps"]);
-    process::run(pip.arg("--target").arg(&place).arg(PACKAGE))
-        .context("Moonshine cannot be fetched from PyPI")?;
+    let python = Environment::create(&process::target().join("moonshine-python"))?;
+    let mut pip = python.install();
+    pip.args(["--retries", "1", "--no-deps", "--target"]);
+    process::run(pip.arg(&place).arg(PACKAGE)).context("Moonshine cannot be fetched from PyPI")?;
     Ok(place)
 }

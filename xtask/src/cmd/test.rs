@@ -1,4 +1,3 @@
-use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
@@ -9,6 +8,7 @@ use crate::cmd::{budget::Budget, can::Can, growth::Growth, key, setup};
 use crate::guest;
 use crate::moonshine;
 use crate::process::{self, cargo};
+use crate::python;
 use crate::qemu::{self, Link};
 use crate::robots::{self, Bridge, Wanted};
 use crate::toolchain::Toolchain;
@@ -47,7 +47,7 @@ impl Test {
         tests.env("DEICTIC_IMAGE_KEY", key);
         step("image in a hurry");
         tests.env("DEICTIC_IMAGE_HASTY", board::build_hasty(&toolchain)?);
-        match python() {
+        match python::with_can() {
             Ok(python) => {
                 tests.env("DEICTIC_PYTHON", python);
             }
@@ -107,24 +107,6 @@ fn trial(toolchain: &Toolchain, name: &str, ends_well: bool) -> Result<()> {
     );
     Ok(())
 }
-
-/// A Python with python-can and cantools, made beside the other build products.
-fn python() -> Result<PathBuf> {
-    let place = process::target().join("robot-tools");
-    let python = place.join("bin/python");
-    let ready = place.join("ready");
-    if !ready.is_file() {
-        process::run(Command::new("python3").args(["-m", "venv"]).arg(&place))
-            .context("Python's venv is needed: `apt-get install python3-venv`")?;
-        let mut pip = Command::new(place.join("bin/pip"));
-        process::run(pip.args(["install", "--quiet"]).args(PYTHON_PACKAGES))?;
-        std::fs::write(&ready, "")?;
-    }
-    Ok(python)
-}
-
-/// The releases that this was tested with; pyserial is what python-can reaches adapters through.
-const PYTHON_PACKAGES: [&str; 3] = ["python-can==4.5.0", "cantools==40.2.1", "pyserial==3.5"];
 
 fn step(title: &str) {
     eprintln!("\n== {title}");

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, bail};
 
 use crate::process;
+use crate::python::Environment;
 
 /// The release that this was tested with.
 const PACKAGE: &str = "franka-sim==1.1.7";
@@ -30,18 +31,12 @@ pub fn install() -> Result<PathBuf> {
         return Ok(place);
     }
     eprintln!("installing {PACKAGE}");
-    process::run(Command::new("python3").args(["-m", "venv"]).arg(&place))
-        .context("Python's venv is needed: `apt-get install python3-venv`")?;
-    let pip = place.join("bin/pip");
-    process::run(Command::new(pip).args(["install", "--quiet", "--retries", "1", PACKAGE]))
+    let python = Environment::create(&place)?;
+    process::run(python.install().args(["--retries", "1", PACKAGE]))
         .context("franka-sim cannot be fetched from PyPI")?;
     let script = place.join("fci_model.py");
     fs::write(&script, MODEL)?;
-    process::run(
-        Command::new(place.join("bin/python"))
-            .arg(script)
-            .arg(&model),
-    )?;
+    process::run(Command::new(python.interpreter()).arg(script).arg(&model))?;
     Ok(place)
 }
 
