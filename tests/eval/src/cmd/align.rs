@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use deictic_core::profile::{Align as Rule, Profile};
 use deictic_eval::disturb::Disturbance;
 use deictic_eval::order::Order;
-use deictic_eval::score::{Field, Tally};
+use deictic_eval::score::Tally;
 use deictic_eval::variant::{AlignName, ModelName, ProfileName, Variant};
 use serde::Serialize;
 
@@ -49,20 +49,13 @@ impl Align {
         let mut all: Vec<Figures> = Vec::new();
         for &words in Disturbance::value_variants() {
             let mut tallies = Vec::new();
-            for (maker, set) in &sets {
-                let field = Field::observed(
-                    set,
-                    &catalogue,
-                    ProfileName::Paper,
-                    &order,
-                    maker.form(),
-                    self.made.seed,
-                    |record, rng| {
-                        words
-                            .sentences(&catalogue, &order, *maker, record, rng)
-                            .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))
-                    },
-                )?;
+            for made in &sets {
+                let maker = made.0;
+                let field = self.made.field(made, &catalogue, &order, |record, rng| {
+                    words
+                        .sentences(&catalogue, &order, maker, record, rng)
+                        .map_err(|e| anyhow::anyhow!("the core refuses a word: {e:?}"))
+                })?;
                 let key = (maker.is_free(), maker.level().number());
                 for (model, align) in cases() {
                     let variant = Variant::new(model, None, None, ProfileName::Paper);

@@ -2,12 +2,18 @@
 
 use std::path::PathBuf;
 
+use deictic_core::board::Word;
 use deictic_eval::catalogue::Catalogue;
 use deictic_eval::dataset::{self, Set};
 use deictic_eval::free;
 use deictic_eval::generate::{self, Kind};
 use deictic_eval::maker::Maker;
 use deictic_eval::noise::Level;
+use deictic_eval::order::Order;
+use deictic_eval::record::Record;
+use deictic_eval::score::Field;
+use deictic_eval::variant::ProfileName;
+use rand_chacha::ChaCha8Rng;
 
 /// Which sets.
 #[derive(clap::Args)]
@@ -20,7 +26,7 @@ pub struct Made {
     samples: usize,
     /// Seed of sets made here, and of what else is drawn
     #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    seed: u64,
 }
 
 impl Made {
@@ -38,6 +44,19 @@ impl Made {
             catalogue,
             sets.into_iter().map(known).collect::<anyhow::Result<_>>()?,
         ))
+    }
+
+    /// Translates one of the sets, each sample of which is observed in a way of its own
+    /// ([`Field::observed`]).
+    pub fn field<'a>(
+        &self,
+        (maker, set): &(Maker, Set),
+        catalogue: &'a Catalogue,
+        order: &Order,
+        words: impl Fn(&Record, &mut ChaCha8Rng) -> anyhow::Result<Vec<Vec<Word>>>,
+    ) -> anyhow::Result<Field<'a>> {
+        let (habits, form) = (ProfileName::Paper, maker.form());
+        Field::observed(set, catalogue, habits, order, form, self.seed, words)
     }
 
     fn made(&self) -> (Catalogue, Vec<Set>) {

@@ -3,7 +3,6 @@
 use deictic_eval::gaze;
 use deictic_eval::interval::wilson;
 use deictic_eval::order::Order;
-use deictic_eval::score::Field;
 use deictic_eval::situation::in_order;
 use deictic_eval::variant::{ModelName, ProfileName, Variant};
 use serde::Serialize;
@@ -45,26 +44,19 @@ impl Modalities {
         let (catalogue, sets) = self.made.sets()?;
         let order = Order::own(&catalogue);
         let mut all = Vec::new();
-        for (maker, set) in &sets {
+        for made in &sets {
+            let (maker, set) = made;
             for modalities in [2, 3] {
-                let field = Field::observed(
-                    set,
-                    &catalogue,
-                    ProfileName::Paper,
-                    &order,
-                    maker.form(),
-                    self.made.seed,
-                    |record, rng| {
-                        let mut observed = record.words.to_vec();
-                        if modalities > 2 {
-                            observed.push(gaze::words(&catalogue, *maker, record, rng));
-                        }
-                        observed
-                            .iter()
-                            .map(|words| in_order(words, &order))
-                            .collect()
-                    },
-                )?;
+                let field = self.made.field(made, &catalogue, &order, |record, rng| {
+                    let mut observed = record.words.to_vec();
+                    if modalities > 2 {
+                        observed.push(gaze::words(&catalogue, *maker, record, rng));
+                    }
+                    observed
+                        .iter()
+                        .map(|words| in_order(words, &order))
+                        .collect()
+                })?;
                 for model in [ModelName::Joint, ModelName::M3] {
                     let variant = Variant::new(model, None, None, ProfileName::Paper);
                     let t = field.tally(&variant)?;
