@@ -5,6 +5,7 @@
 pub mod around;
 pub mod damage;
 mod ear;
+pub mod inside;
 pub mod line;
 pub mod setting;
 pub mod trial;

@@ -14,8 +14,8 @@ use deictic_core::protocol::message::Statistics;
 use deictic_core::time::Micros;
 
 use crate::network::around::Around;
+use crate::network::inside::Told;
 use crate::network::line::{Faults, Line};
-use crate::network::world::Told;
 
 /// How many times as fast as ours the board's time passes: its image takes 25 MHz for 1.
 pub const HASTE: u32 = 25;
