@@ -3,6 +3,8 @@
 
 #[path = "common/far.rs"]
 mod far;
+#[path = "common/tape.rs"]
+mod tape;
 
 use std::sync::{Arc, Mutex};
 
@@ -10,62 +12,13 @@ use deictic::robot::end::End;
 use deictic::robot::sim::Sim;
 use deictic::robot::{Event, Refusal};
 use deictic::vocabulary::Lexicon;
-use deictic_core::command::field::{Id, Number};
-use deictic_core::command::message::{Done, FromRobot, Halt, Home, HostBeat, ToRobot};
+use deictic_core::command::Packet;
+use deictic_core::command::field::Id;
+use deictic_core::command::message::{Done, FromRobot, Home, HostBeat, ToRobot};
 use deictic_core::command::parcel::Sender;
-use deictic_core::command::seal::{Guard, ON_A_BUS, Refused, SEALED};
-use deictic_core::command::{HOST_LOST, Packet};
-use far::{Ended, Far, Scene, Way, gate, key};
-
-/// What a scene's line has carried.
-type Tape = Arc<Mutex<Vec<(Way, Packet)>>>;
-
-fn record(scene: &Scene) -> Tape {
-    let tape = Tape::default();
-    let writes = Arc::clone(&tape);
-    scene.spoil(move |way, packet| {
-        writes.lock().unwrap().push((way, packet.clone()));
-        Ok(vec![packet.clone()])
-    });
-    tape
-}
-
-fn far(scene: &Scene) -> Arc<Mutex<Far>> {
-    Arc::clone(scene.far.as_ref().unwrap())
-}
-
-fn refused(scene: &Scene) -> Refused {
-    far(scene).lock().unwrap().gate.refused()
-}
-
-/// Says something to the robot in the bridge's place.
-fn inject(scene: &Scene, packet: &Packet) {
-    let _ = far(scene).lock().unwrap().take(packet);
-}
-
-fn is_moving(scene: &Scene) -> bool {
-    far(scene).lock().unwrap().end.is_moving()
-}
-
-fn id(run: u32, number: u32) -> Id {
-    let number = Number::new(number).unwrap();
-    Id { run, number }
-}
-
-/// The run and the newest number of what was said in clear on the tape.
-fn last_id(tape: &Tape) -> Id {
-    let tape = tape.lock().unwrap();
-    let named = |(way, packet): &(Way, Packet)| {
-        let mut clear = packet.clone();
-        clear.id &= !SEALED;
-        clear.bytes.truncate(clear.bytes.len().min(7));
-        match (way, ToRobot::read(&clear)) {
-            (Way::ToRobot, Ok(ToRobot::HostBeat(of))) => Some(of.id),
-            _ => None,
-        }
-    };
-    tape.iter().rev().find_map(named).unwrap()
-}
+use deictic_core::command::seal::{Guard, Heard, ON_A_BUS, Refused, SEALED};
+use far::{Ended, Scene, Way, gate, key};
+use tape::{far, id, inject, is_moving, last_id, record, refused};
 
 #[test]
 fn with_the_same_key_everything_goes_on_as_without() {
@@ -126,7 +79,6 @@ fn what_is_invented_is_not_taken() {
 
 /// Has a host's guard open a conversation with a robot's gate.
 fn converse(guard: &mut Guard, robot: &mut deictic::robot::remote::Gate) -> Vec<Packet> {
-    use deictic_core::command::seal::Heard;
     let beat = ToRobot::from(HostBeat { id: id(1, 0) }).packet();
     let mut said = Vec::new();
     for packet in guard.say(&beat) {
@@ -220,51 +172,6 @@ fn every_changed_byte_is_found_out() {
 }
 
 #[test]
-fn a_beat_in_clear_keeps_nothing_moving() {
-    let mut scene = Scene::keyed(Some(7), Some(7));
-    let tape = record(&scene);
-    let (_, taken) = scene.begin("put-into can drawer");
-    taken.unwrap();
-    scene.pass(500);
-    assert!(is_moving(&scene));
-    let id = last_id(&tape);
-    // The bridge is cut off, and somebody beats in its place.
-    scene.spoil(|way, packet| {
-        Ok(if way == Way::ToRobot {
-            vec![]
-        } else {
-            vec![packet.clone()]
-        })
-    });
-    for _ in 0..HOST_LOST.0 / 10_000 + 2 {
-        inject(&scene, &ToRobot::from(HostBeat { id }).packet());
-        scene.tick();
-    }
-    assert!(!is_moving(&scene));
-}
-
-#[test]
-fn anybody_may_stop_the_arm() {
-    let mut scene = Scene::keyed(Some(7), Some(7));
-    let tape = record(&scene);
-    let (command, taken) = scene.begin("put-into can drawer");
-    taken.unwrap();
-    scene.pass(500);
-    assert!(is_moving(&scene));
-    inject(&scene, &ToRobot::from(Halt { id: last_id(&tape) }).packet());
-    assert!(!is_moving(&scene));
-    let end = scene.ending(command);
-    assert!(
-        matches!(end, Ended::Event(Event::Stopped { .. })),
-        "{end:?}"
-    );
-    // The bridge's own halt goes in clear, in one frame.
-    scene.robot.stop(scene.now);
-    let halts = |(way, p): &(Way, Packet)| *way == Way::ToRobot && p.id == 0x010;
-    assert!(tape.lock().unwrap().iter().any(halts));
-}
-
-#[test]
 fn what_is_told_in_the_robots_place_is_not_believed() {
     let mut scene = Scene::keyed(Some(7), Some(7));
     let tape = record(&scene);
@@ -286,31 +193,4 @@ fn what_is_told_in_the_robots_place_is_not_believed() {
         Ended::Event(Event::Done(_))
     ));
     assert_eq!(scene.table.version(), 6);
-}
-
-#[test]
-fn any_one_sealed_packet_may_be_lost_or_come_twice() {
-    for way in [Way::ToRobot, Way::ToHost] {
-        for times in [0, 2] {
-            for nth in 1..40 {
-                let mut scene = Scene::keyed(Some(7), Some(7));
-                let mut count = 0;
-                scene.spoil(move |at, packet| {
-                    count += usize::from(at == way);
-                    let times = if at == way && count == nth { times } else { 1 };
-                    Ok(vec![packet.clone(); times])
-                });
-                let end = match scene.run("put-into can drawer") {
-                    // The scene was not whole when the command came.
-                    Ended::Refused(Refusal::StaleScene { .. }) => scene.run("put-into can drawer"),
-                    end => end,
-                };
-                assert!(
-                    matches!(end, Ended::Event(Event::Done(_))),
-                    "{way:?} {nth}: {end:?}"
-                );
-                assert_eq!((scene.begun(), scene.table.version()), (1, 6));
-            }
-        }
-    }
 }
