@@ -21,6 +21,8 @@ pub const STOP: u8 = 0;
 pub const PUT: u8 = 1;
 /// Needs an object.
 pub const PICK: u8 = 2;
+/// Needs an object.
+pub const PUSH: u8 = 3;
 
 /// Where the three objects are.
 pub const OBJECTS: [[f32; 3]; 3] = [[-0.45, -0.25, 0.05], [-0.5, 0.02, 0.05], [-0.45, 0.3, 0.05]];
@@ -30,7 +32,7 @@ pub const STORAGES: [[f32; 3]; 2] = [[-0.75, -0.45, 0.1], [-0.75, 0.5, 0.1]];
 /// Frames per second.
 pub const RATE: f64 = 110.0;
 
-/// Stop, put and pick.
+/// Stop, put, pick and push.
 ///
 /// # Panics
 /// Never.
@@ -46,6 +48,7 @@ pub fn vocabulary() -> Vocabulary {
     let actions = [
         needs(&[]),
         needs(&[Category::OBJECT, Category::STORAGE]),
+        needs(&[Category::OBJECT]),
         needs(&[Category::OBJECT]),
     ];
     Vocabulary::new(&actions, &[3, 2], 0, Some(STOP), 1).expect("a sound vocabulary")
@@ -90,6 +93,8 @@ pub fn meanings() -> Meanings {
         (shape(Shape::ThumbsUp), PUT),
         (stroke("swipe-right"), PUT),
         (shape(Shape::Pinch), PICK),
+        (shape(Shape::Three), PUSH),
+        (stroke("wave"), STOP),
         (shape(Shape::Two), STOP),
     ]
     .into_iter()

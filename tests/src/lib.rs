@@ -8,6 +8,7 @@ pub mod host;
 pub mod method;
 pub mod network;
 pub mod painted;
+pub mod people;
 pub mod sensing;
 pub mod soak;
 pub mod stillness;

@@ -1,10 +1,7 @@
 //! Sessions of made-up people, read by the unit's hand reader.
 
-#[path = "common/people.rs"]
-mod people;
-
 use deictic::hand::movement::GESTURES;
-use deictic::hand::session::{Act, Session};
+use deictic::hand::session::{Act, made_up};
 use deictic_core::category::Category;
 use deictic_core::gesture::context::Event;
 use deictic_core::gesture::frame::HandFrame;
@@ -14,9 +11,31 @@ use deictic_core::gesture::shape::Shape;
 use deictic_core::gesture::wire::Sample;
 use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::time::Micros;
-use people::*;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use deictic_tests::gesturing::{OBJECTS, PICK, PUSH, PUT, RATE, STOP, STORAGES, person, separate};
+use deictic_tests::people::{Bench, Named, Reader, words};
+
+/// Holds that 95 of 100 people's sessions say this.
+fn holds(acts: &[Act], expected: &[Named]) {
+    let bench = Bench::new();
+    let right = (1_000..1_100).filter(|seed| {
+        let said = bench.said(acts, *seed);
+        said.is_some_and(|s| s.check(&bench.vocabulary).is_ok() && words(&s) == expected)
+    });
+    let right = right.count();
+    assert!(right >= 95, "{right} of 100 for {acts:?}");
+}
+
+fn object(option: usize) -> Named {
+    (Category::OBJECT, option)
+}
+
+fn storage(option: usize) -> Named {
+    (Category::STORAGE, option)
+}
+
+fn action(option: u8) -> Named {
+    (Category::ACTION, usize::from(option))
+}
 
 #[test]
 fn people_show_what_to_do_and_point_at_an_object_and_a_storage() {
@@ -69,15 +88,14 @@ fn the_stop_gesture_does_not_wait_for_the_hand_to_leave() {
     let bench = Bench::new();
     let mut in_time = 0;
     for seed in 0..40 {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let acts = [Act::Point(OBJECTS[0]), separate(), Act::Show(Shape::Two)];
-        let samples = Session::new(Mount::DEFAULT, 0.03, &mut rng).perform(&acts, 110.0);
+        let samples = person(seed, &acts);
         let events = bench.read(&mut Reader::new(), &samples);
         let stop = events.iter().find_map(|event| match event {
             (Event::Stop, said) => said.as_ref().map(words),
             _ => None,
         });
-        in_time += usize::from(stop == Some(vec![(Some(Category::ACTION), STOP)]));
+        in_time += usize::from(stop == Some(vec![action(STOP)]));
         assert!(
             !events
                 .iter()
@@ -99,9 +117,8 @@ fn a_hand_that_shows_nothing_says_nothing() {
 #[test]
 fn frames_over_the_wire_say_the_same() {
     let bench = Bench::new();
-    let mut rng = ChaCha8Rng::seed_from_u64(5);
     let acts = [Act::Show(Shape::Pinch), separate(), Act::Point(OBJECTS[0])];
-    let samples = Session::new(Mount::DEFAULT, 0.03, &mut rng).perform(&acts, 110.0);
+    let samples = person(5, &acts);
     let mut line = SensorLine::new();
     let mut received = Vec::new();
     for sample in &samples {
@@ -120,9 +137,8 @@ fn frames_over_the_wire_say_the_same() {
 #[test]
 fn a_sensor_that_stops_in_the_middle_says_nothing() {
     let bench = Bench::new();
-    let mut rng = ChaCha8Rng::seed_from_u64(6);
     let acts = [Act::Show(Shape::Pinch), separate()];
-    let mut samples = Session::new(Mount::DEFAULT, 0.03, &mut rng).perform(&acts, 110.0);
+    let mut samples = person(6, &acts);
     samples.retain(|sample| matches!(sample, Sample::Hand(_)));
     let mut reader = Reader::new();
     let events = bench.read(&mut reader, &samples);
@@ -140,13 +156,12 @@ fn a_sensor_that_stops_in_the_middle_says_nothing() {
 #[test]
 fn whatever_the_frames_are_the_reader_survives() {
     let bench = Bench::new();
-    let mut rng = ChaCha8Rng::seed_from_u64(7);
     let acts = [
         Act::Point(OBJECTS[0]),
         separate(),
         Act::Move(GESTURES[7].to_owned()),
     ];
-    let samples = Session::new(Mount::DEFAULT, 0.1, &mut rng).perform(&acts, 110.0);
+    let samples = made_up(7, Mount::DEFAULT, 0.1, &acts, RATE);
     let mut spoilt = Vec::new();
     for (i, sample) in samples.iter().enumerate() {
         let Sample::Hand(mut frame) = *sample else {
