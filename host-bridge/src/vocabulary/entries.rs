@@ -6,9 +6,8 @@ use deictic_core::category::Category;
 use deictic_core::vocabulary::VocabularyError;
 
 use super::CategoryEntries;
-use super::error::VocabularyProblem as Problem;
+use super::error::{Found, VocabularyProblem as Problem};
 use super::file::File;
-use super::load::{Found, saturate};
 use super::written::Written;
 
 /// The names of the categories that every vocabulary can have, in the core's order.
@@ -129,4 +128,9 @@ pub(super) fn check_name(name: &str, place: &Range<usize>) -> Found<()> {
 pub(super) fn known(categories: &[CategoryEntries]) -> Vec<String> {
     let there = categories.iter().filter(|c| !c.entries.is_empty());
     there.map(|c| c.name.clone()).collect()
+}
+
+/// A count as a byte, 255 when it is larger.
+pub(super) fn saturate(count: usize) -> u8 {
+    u8::try_from(count).unwrap_or(u8::MAX)
 }

@@ -1,10 +1,15 @@
 //! What can be wrong with a vocabulary file.
 
+use std::ops::Range;
+
 use deictic_core::vocabulary::VocabularyError;
 use thiserror::Error;
 
 use crate::diagnose::{Problem, did_you_mean, misspelt, quoted};
 use crate::explain;
+
+/// What was looked for, or what is wrong and the bytes it is about.
+pub(super) type Found<T> = Result<T, (Option<Range<usize>>, VocabularyProblem)>;
 
 /// What is wrong with a vocabulary file.
 #[derive(Debug, Error)]

@@ -8,17 +8,14 @@ use deictic_core::large;
 use deictic_core::vocabulary::{Action, Requirement, Signature, VocabularyError};
 use toml::Spanned;
 
-use super::entries::{categories, check_name, known};
-use super::error::VocabularyProblem as Problem;
+use super::entries::{categories, check_name, known, saturate};
+use super::error::{Found, VocabularyProblem as Problem};
 use super::file::{self, File, Name};
 use super::{CategoryEntries, Entry, Lexicon, TABLETOP};
 use crate::diagnose::FileError;
 
 /// A [`Problem`] with its place in a vocabulary file.
 pub type VocabularyFileError = FileError<Problem>;
-
-/// A problem and the bytes it is about.
-pub(super) type Found<T> = Result<T, (Option<Range<usize>>, Problem)>;
 
 impl Lexicon {
     /// Reads a vocabulary file.
@@ -242,8 +239,4 @@ fn place_of(file: &File, error: &VocabularyError) -> Option<Range<usize>> {
 fn index_of(entries: &[Entry], name: &str) -> Option<u8> {
     let at = entries.iter().position(|e| e.name == name)?;
     u8::try_from(at).ok()
-}
-
-pub(super) fn saturate(count: usize) -> u8 {
-    u8::try_from(count).unwrap_or(u8::MAX)
 }

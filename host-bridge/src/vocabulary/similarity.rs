@@ -6,9 +6,8 @@ use deictic_core::sentence::{GESTURE, LANGUAGE};
 
 use super::CategoryEntries;
 use super::entries::known;
-use super::error::VocabularyProblem as Problem;
+use super::error::{Found, VocabularyProblem as Problem};
 use super::file::{Similarity, Table};
-use super::load::Found;
 
 /// The similarity tables of the two modalities a vocabulary file can describe.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,9 +7,8 @@ use deictic_core::gesture::shape::Shape;
 use deictic_core::gesture::stroke_table::NAMES;
 use toml::Spanned;
 
-use super::error::VocabularyProblem as Problem;
+use super::error::{Found, VocabularyProblem as Problem};
 use super::file::{Choice, Name};
-use super::load::Found;
 use super::{CategoryEntries, Entry};
 
 /// An option as written.
