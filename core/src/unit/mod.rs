@@ -21,6 +21,7 @@ pub use crate::protocol::message::Statistics;
 
 use crate::protocol::link::{Counters, Link, Received};
 use crate::protocol::message::{Capacities, Configuration, Fault, Heartbeat, ToHost};
+use crate::protocol::seal::{Key, Way};
 use crate::protocol::stuffing::Outbox;
 use crate::time::Micros;
 use crate::trace::Trace;
@@ -28,6 +29,7 @@ use hand::Hand;
 use loading::Loading;
 use pairing::Pairing;
 use sensing::Sensing;
+use trust::Trust;
 
 /// How often the unit shows that it lives.
 pub const HEARTBEAT: Micros = Micros::from_millis(500);
@@ -49,7 +51,7 @@ pub struct Unit<
     const OUT: usize,
     const S: usize,
 > {
-    boot: u32,
+    trust: Trust,
     link: Link<FRAME>,
     outbox: Outbox<OUT>,
     /// Whether a host of the same schema has opened the conversation.
@@ -64,8 +66,6 @@ pub struct Unit<
     configuration: Configuration,
     /// Whether the robot is carrying out a command.
     moving: bool,
-    /// How many conversations were opened: with `boot`, what makes a challenge new.
-    greetings: u32,
     statistics: Statistics,
 }
 
@@ -84,7 +84,7 @@ impl<
     #[must_use]
     pub const fn new(boot: u32) -> Self {
         Self {
-            boot,
+            trust: Trust::new(boot),
             link: Link::new(),
             outbox: Outbox::new(),
             open: false,
@@ -97,7 +97,6 @@ impl<
             trace: Trace::new(),
             configuration: Configuration::DEFAULT,
             moving: false,
-            greetings: 0,
             statistics: Statistics {
                 link: Counters::ZERO,
                 executes: 0,
@@ -113,7 +112,7 @@ impl<
     /// of flash.
     #[inline(never)]
     pub fn restart(&mut self, boot: u32) {
-        self.boot = boot;
+        self.trust = Trust::new(boot);
         self.link = Link::new();
         self.outbox.abandon();
         self.open = false;
@@ -126,8 +125,14 @@ impl<
         self.trace.clear();
         self.configuration = Configuration::DEFAULT;
         self.moving = false;
-        self.greetings = 0;
         self.statistics = Statistics::default();
+    }
+
+    /// From now on only a host that has the key is listened to. It is told after the unit's Hello what to prove it with.
+    #[inline(never)]
+    pub fn lock(&mut self, key: Key) {
+        self.link.lock(key, Way::ToHost);
+        self.open = false;
     }
 
     /// What this build holds.

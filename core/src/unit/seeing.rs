@@ -12,7 +12,7 @@ use crate::gesture::mapping::{Mapping, STROKES};
 use crate::gesture::reader::HandReader;
 use crate::gesture::stroke::Likely;
 use crate::gesture::wire::{Sample, WireError, decode};
-use crate::protocol::hand::{HandFault, HandSettings, Meanings};
+use crate::protocol::hand::{HandFault, HandSettings, HandStatistics, HandView, Meanings};
 use crate::protocol::message::{Fault, Loaded, SentencePart, ToHost, WORDS_PART};
 use crate::sentence::GESTURE;
 use crate::time::Micros;
@@ -159,6 +159,23 @@ impl<
             };
             link.send(&ToHost::Shown(part), outbox);
         }
+    }
+
+    /// Tells the host what the unit sees, and what it has counted.
+    #[inline(never)]
+    pub(super) fn tell_hand(&mut self) {
+        let view = self.hand_view();
+        self.send(&ToHost::Hand(view));
+        self.send(&ToHost::HandStatistics(HandStatistics {
+            samples: *self.hand.reader.counters(),
+            learned: self.hand.taught.count(),
+        }));
+    }
+
+    /// What the unit sees of a hand.
+    #[must_use]
+    pub fn hand_view(&self) -> HandView {
+        self.hand.view(self.loading.scene())
     }
 
     pub(super) fn take_meanings(&mut self, meanings: &Meanings) -> Result<(), Fault> {

@@ -3,7 +3,7 @@
 use super::HEARTBEAT;
 use super::Unit;
 use crate::protocol::message::{
-    Configuration, Fault, Hello, Loaded, RobotState, SensorPart, ToHost, ToUnit,
+    Configuration, Fault, Hello, Loaded, Proof, RobotState, SensorPart, ToHost, ToUnit,
 };
 use crate::protocol::{SCHEMA, VERSION};
 use crate::time::Micros;
@@ -92,7 +92,11 @@ impl<
         self.link.shut();
         self.introduce();
         if self.open {
-            self.challenge();
+            if let Some(nonce) = self.trust.challenge(&self.link) {
+                // Nothing else is taken until the proof has come.
+                self.open = false;
+                self.send(&ToHost::Challenge(nonce));
+            }
         } else {
             self.fault(Fault::Schema {
                 unit: (VERSION, SCHEMA),
@@ -101,11 +105,22 @@ impl<
         }
     }
 
+    #[inline(never)]
+    fn take_proof(&mut self, now: Micros, proof: &Proof) {
+        if !self.trust.accepts(&mut self.link, proof) {
+            self.fault(Fault::NotProven);
+            return;
+        }
+        self.open = true;
+        self.heard = now;
+        self.send(&ToHost::Proven);
+    }
+
     fn introduce(&mut self) {
         self.send(&ToHost::Hello(Hello {
             version: VERSION,
             schema: SCHEMA,
-            boot: self.boot,
+            boot: self.trust.boot,
             capacities: Self::capacities(),
         }));
     }

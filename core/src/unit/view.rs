@@ -2,37 +2,18 @@
 
 use heapless::Vec;
 
-use super::Unit;
+use super::hand::Hand;
 use crate::math;
-use crate::protocol::hand::{Glimpse, Guess, HandStatistics, HandView, VIEWED};
-use crate::protocol::message::ToHost;
+use crate::protocol::hand::{Glimpse, Guess, HandView, VIEWED};
+use crate::scene::Scene;
 
-impl<
-    const N: usize,
-    const C: usize,
-    const F: usize,
-    const E: usize,
-    const W: usize,
-    const FRAME: usize,
-    const OUT: usize,
-    const S: usize,
-> Unit<N, C, F, E, W, FRAME, OUT, S>
-{
-    /// Tells the host what the unit sees, and what it has counted.
-    #[inline(never)]
-    pub(super) fn tell_hand(&mut self) {
-        let view = self.hand_view();
-        self.send(&ToHost::Hand(view));
-        self.send(&ToHost::HandStatistics(HandStatistics {
-            samples: *self.hand.reader.counters(),
-            learned: self.hand.taught.count(),
-        }));
-    }
-
-    /// What the unit sees of a hand.
-    #[must_use]
-    pub fn hand_view(&self) -> HandView {
-        let reader = &self.hand.reader;
+impl<const N: usize, const C: usize, const W: usize> Hand<N, C, W> {
+    /// What the unit sees of a hand before this scene.
+    pub(super) fn view<const E: usize, const F: usize>(
+        &self,
+        scene: Option<&Scene<E, F>>,
+    ) -> HandView {
+        let reader = &self.reader;
         let mut view = HandView {
             hand: reader.hand(),
             shapes: *reader.shapes(),
@@ -45,8 +26,8 @@ impl<
             view.strokes = likeliest(&likely.gestures);
             view.no_stroke = likely.none;
         }
-        if let Some(scene) = self.loading.scene()
-            && let Some(meant) = reader.meant(scene, &self.hand.settings.aim)
+        if let Some(scene) = scene
+            && let Some(meant) = reader.meant(scene, &self.settings.aim)
         {
             view.pointed = likeliest(&meant.points);
             view.nothing = meant.nothing;

@@ -7,10 +7,9 @@
 //! modality that forbade lifts the prohibition by a command of its own: "don't pick the cup", "pick the can".
 
 use super::Source;
-use crate::protocol::message::{Fault, ToHost, Withheld};
+use crate::protocol::message::Fault;
 use crate::sentence::{MODALITIES, SentenceError};
 use crate::time::Micros;
-use crate::unit::Unit;
 
 /// What a prohibition holds back.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +30,22 @@ impl Forbidden {
         hand: false,
     };
 
+    /// By a modality, and of the hand that may be in the middle of a sentence.
+    ///
+    /// # Errors
+    /// [`Fault`] for a modality that there is not.
+    pub(super) fn new(by: u8, until: Micros, hand: bool) -> Result<Self, Fault> {
+        if usize::from(by) >= MODALITIES {
+            return Err(Fault::Sentence {
+                modality: by,
+                error: SentenceError::UnknownModality {
+                    capacity: MODALITIES as u8,
+                },
+            });
+        }
+        Ok(Self { until, by, hand })
+    }
+
     /// Whether a sentence of this modality that is complete `now` belongs to it.
     pub(super) fn holds(&self, now: Micros, source: Source, modality: u8) -> bool {
         modality != self.by && (now < self.until || self.hand && source == Source::Hand)
@@ -44,59 +59,5 @@ impl Forbidden {
     /// Looks at the hand: what it begins within the window belongs to it to its end.
     pub(super) fn watch(&mut self, now: Micros, showing: bool) {
         self.hand = showing && (self.hand || now < self.until);
-    }
-}
-
-impl<
-    const N: usize,
-    const C: usize,
-    const F: usize,
-    const E: usize,
-    const W: usize,
-    const FRAME: usize,
-    const OUT: usize,
-    const S: usize,
-> Unit<N, C, F, E, W, FRAME, OUT, S>
-{
-    /// Takes it that a modality forbade, asked or told something, or said what nobody understood: what waits is
-    /// dropped, an open question with it, and what is shown with it is not taken.
-    ///
-    /// # Errors
-    /// [`Fault`] for a modality that there is not; nothing has changed then.
-    pub(in crate::unit) fn forbid(&mut self, now: Micros, by: u8) -> Result<(), Fault> {
-        if usize::from(by) >= MODALITIES {
-            return Err(Fault::Sentence {
-                modality: by,
-                error: SentenceError::UnknownModality {
-                    capacity: MODALITIES as u8,
-                },
-            });
-        }
-        let modalities = self.pairing.observations.modalities();
-        self.pairing.clear();
-        self.pairing.forbidden = Forbidden {
-            until: now.after(self.configuration.window),
-            by,
-            hand: self.hand.is_showing(),
-        };
-        self.send(&ToHost::Withheld(Withheld {
-            modalities,
-            confirms: true,
-        }));
-        Ok(())
-    }
-
-    /// Looks at the hand, after what it said.
-    pub(in crate::unit) fn watch_forbidden(&mut self, now: Micros) {
-        self.pairing.forbidden.watch(now, self.hand.is_showing());
-    }
-
-    /// Tells the host that this modality's sentence is not taken.
-    #[inline(never)]
-    pub(super) fn withhold(&mut self, modality: u8) {
-        self.send(&ToHost::Withheld(Withheld {
-            modalities: 1_u8.checked_shl(u32::from(modality)).unwrap_or(0),
-            confirms: false,
-        }));
     }
 }

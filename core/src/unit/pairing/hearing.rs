@@ -6,7 +6,7 @@ use crate::category::Category;
 use crate::clarify::Confirmation;
 use crate::decide::Kind;
 use crate::fuse::says_clearly;
-use crate::protocol::message::{Answer, Fault};
+use crate::protocol::message::{Answer, Fault, ToHost, Withheld};
 use crate::sentence::{ANSWER, GESTURE, Sentence, Word};
 use crate::time::Micros;
 use crate::unit::Unit;
@@ -208,6 +208,38 @@ impl<
             }
         }
         Ok(())
+    }
+
+    /// Takes it that a modality forbade, asked or told something, or said what nobody understood: what waits is
+    /// dropped, an open question with it, and what is shown with it is not taken.
+    ///
+    /// # Errors
+    /// [`Fault`] for a modality that there is not; nothing has changed then.
+    pub(in crate::unit) fn forbid(&mut self, now: Micros, by: u8) -> Result<(), Fault> {
+        let until = now.after(self.configuration.window);
+        let forbidden = Forbidden::new(by, until, self.hand.is_showing())?;
+        let modalities = self.pairing.observations.modalities();
+        self.pairing.clear();
+        self.pairing.forbidden = forbidden;
+        self.send(&ToHost::Withheld(Withheld {
+            modalities,
+            confirms: true,
+        }));
+        Ok(())
+    }
+
+    /// Looks at the hand, after what it said.
+    pub(in crate::unit) fn watch_forbidden(&mut self, now: Micros) {
+        self.pairing.forbidden.watch(now, self.hand.is_showing());
+    }
+
+    /// Tells the host that this modality's sentence is not taken.
+    #[inline(never)]
+    fn withhold(&mut self, modality: u8) {
+        self.send(&ToHost::Withheld(Withheld {
+            modalities: 1_u8.checked_shl(u32::from(modality)).unwrap_or(0),
+            confirms: false,
+        }));
     }
 
     /// A sentence of the stop action alone always stops. One with other words, which may have been
