@@ -8,10 +8,7 @@ mod can;
 #[path = "common/trial.rs"]
 mod trial;
 
-use std::time::Duration;
-
-use can::{Slcand, Witness, halt, interface};
-use deictic::robot::Event;
+use can::{Slcand, Witness, interface, stops_at_a_halt};
 use deictic::robot::end::Listener;
 use deictic::robot::way::Way;
 use deictic_core::can::Frame;
@@ -58,15 +55,7 @@ fn a_halt_of_anybody_on_the_bus_stops_the_arm() {
         return;
     };
     let far = Far::on(&name);
-    let mut near = Near::to(&far.way);
-    let id = near.begin("move-up");
-    near.pass(Duration::from_millis(100));
-    halt(&name);
-    let happened = near.until_end(id);
-    assert!(
-        matches!(happened.last(), Some(Event::Stopped { .. })),
-        "{happened:?}"
-    );
+    stops_at_a_halt(&name, &far);
 }
 
 #[test]

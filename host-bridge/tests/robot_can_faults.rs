@@ -15,31 +15,42 @@ use std::time::{Duration, Instant};
 use can::{Slcand, interface, run};
 use deictic::link::bus::{Bus, BusFault, Socket};
 use deictic::link::{Pair, Wire};
-use deictic::robot::Event;
 use deictic::robot::end::Listener;
 use deictic::robot::way::Way;
+use deictic::robot::{CommandId, Event};
 use deictic_core::can::Frame;
 use deictic_core::slcan::{Heard, Lines};
 use trial::{Far, Near, lost};
+
+/// An arm on this interface that has begun to move.
+fn moving(interface: &str) -> (Far, Near, CommandId) {
+    let far = Far::on(interface);
+    let mut near = Near::to(&far.way);
+    let id = near.begin("move-up");
+    near.pass(Duration::from_millis(100));
+    (far, near, id)
+}
+
+/// Holds that nothing goes on by itself, and that the next command is done.
+fn stays_and_goes_again(far: &Far, mut near: Near) {
+    near.pass(Duration::from_millis(1_500));
+    assert!(!far.is_moving(), "it goes on by itself");
+    near.moves_up();
+}
 
 #[test]
 fn an_interface_that_goes_down_ends_the_command_and_comes_back() {
     let Some((name, _one)) = interface() else {
         return;
     };
-    let far = Far::on(&name);
-    let mut near = Near::to(&far.way);
-    let id = near.begin("move-up");
-    near.pass(Duration::from_millis(100));
+    let (far, mut near, id) = moving(&name);
     run("ip", &["link", "set", &name, "down"]);
     let happened = near.until_end(id);
     assert!(lost(&happened), "{happened:?}");
     thread::sleep(Duration::from_millis(500));
     assert!(!far.is_moving());
     run("ip", &["link", "set", &name, "up"]);
-    near.pass(Duration::from_millis(1_500));
-    assert!(!far.is_moving(), "it goes on by itself");
-    near.moves_up();
+    stays_and_goes_again(&far, near);
 }
 
 /// Frames with which a controller reports what it meets: `CAN_ERR_BUSOFF`, `CAN_ERR_LOSTARB`.
@@ -51,16 +62,11 @@ fn a_controller_off_the_bus_ends_the_command() {
     let Some((name, _one)) = interface() else {
         return;
     };
-    let far = Far::on(&name);
-    let mut near = Near::to(&far.way);
-    let id = near.begin("move-up");
-    near.pass(Duration::from_millis(100));
+    let (far, mut near, id) = moving(&name);
     run("cansend", &[&name, BUS_OFF]);
     let happened = near.until_end(id);
     assert!(lost(&happened), "{happened:?}");
-    near.pass(Duration::from_millis(1_500));
-    assert!(!far.is_moving(), "it goes on by itself");
-    near.moves_up();
+    stays_and_goes_again(&far, near);
 }
 
 #[test]

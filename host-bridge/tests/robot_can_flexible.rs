@@ -7,11 +7,8 @@ mod can;
 #[path = "common/trial.rs"]
 mod trial;
 
-use std::time::Duration;
-
-use can::{Witness, halt, interface, run};
+use can::{Witness, interface, run, stops_at_a_halt};
 use deictic::link::bus::{Bus, BusFault, Socket};
-use deictic::robot::Event;
 use deictic::robot::end::Listener;
 use deictic::robot::way::Way;
 use deictic_core::can::FlexibleFrame;
@@ -57,15 +54,7 @@ fn a_halt_in_a_classic_frame_stops_the_arm() {
         return;
     };
     let far = far(&name);
-    let mut near = Near::to(&far.way);
-    let id = near.begin("move-up");
-    near.pass(Duration::from_millis(100));
-    halt(&name);
-    let happened = near.until_end(id);
-    assert!(
-        matches!(happened.last(), Some(Event::Stopped { .. })),
-        "{happened:?}"
-    );
+    stops_at_a_halt(&name, &far);
 }
 
 #[test]

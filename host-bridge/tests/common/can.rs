@@ -7,10 +7,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use deictic::robot::Event;
 use deictic_core::can::{CLASSIC, FlexibleFrame};
 use deictic_core::command::field::{Id, Number};
 use deictic_core::command::message::{Halt, ToRobot};
 use deictic_core::command::parcel::{Sender, frames};
+
+use crate::trial::{Far, Near};
 
 /// The interface, for one test at a time: they switch it off and spoil it.
 pub fn interface() -> Option<(String, MutexGuard<'static, ()>)> {
@@ -29,7 +32,7 @@ pub fn run(program: &str, arguments: &[&str]) {
 }
 
 /// Has `cansend` halt whatever moves, in classic frames, as anybody on the bus may.
-pub fn halt(interface: &str) {
+fn halt(interface: &str) {
     let number = Number::new(0).unwrap();
     let halt = ToRobot::Halt(Halt {
         id: Id { run: 0, number },
@@ -41,6 +44,19 @@ pub fn halt(interface: &str) {
             &[interface, &format!("{:03X}#{data}", frame.id())],
         );
     }
+}
+
+/// Holds that an arm on this interface stops when anybody says halt.
+pub fn stops_at_a_halt(interface: &str, far: &Far) {
+    let mut near = Near::to(&far.way);
+    let id = near.begin("move-up");
+    near.pass(Duration::from_millis(100));
+    halt(interface);
+    let happened = near.until_end(id);
+    assert!(
+        matches!(happened.last(), Some(Event::Stopped { .. })),
+        "{happened:?}"
+    );
 }
 
 /// The kernel's own interface to an adapter, slcan0, there as long as this is.
