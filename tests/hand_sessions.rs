@@ -13,6 +13,7 @@ use deictic_core::protocol::stuffing::Outbox;
 use deictic_core::time::Micros;
 use deictic_tests::gesturing::{OBJECTS, PICK, PUSH, PUT, RATE, STOP, STORAGES, person, separate};
 use deictic_tests::people::{Bench, Named, Reader, words};
+use deictic_tests::sensing::put;
 
 /// Holds that 95 of 100 people's sessions say this.
 fn holds(acts: &[Act], expected: &[Named]) {
@@ -39,14 +40,7 @@ fn action(option: u8) -> Named {
 
 #[test]
 fn people_show_what_to_do_and_point_at_an_object_and_a_storage() {
-    let acts = [
-        Act::Show(Shape::ThumbsUp),
-        separate(),
-        Act::Point(OBJECTS[1]),
-        separate(),
-        Act::Point(STORAGES[0]),
-    ];
-    holds(&acts, &[action(PUT), object(1), storage(0)]);
+    holds(&put(), &[action(PUT), object(1), storage(0)]);
     let acts = [Act::Show(Shape::Pinch), separate(), Act::Point(OBJECTS[1])];
     holds(&acts, &[action(PICK), object(1)]);
 }

@@ -9,7 +9,6 @@ use deictic::robot::panda::{Joints, PANDA, hand, skeleton};
 use deictic::robot::{CommandId, Event, Posture, Refusal, Robot};
 use deictic::scene::Change;
 use deictic_core::category::Category;
-use deictic_core::intent::Parameter;
 use deictic_core::large::Intent;
 use deictic_core::time::Micros;
 
@@ -191,16 +190,7 @@ fn with_quantity(bench: &Bench, mut intent: Intent, name: &str, quantity: f32) -
     } else {
         Category::DISTANCE
     };
-    let option = bench.lexicon.option(category, name).unwrap();
-    let quantity = Some(quantity);
-    intent
-        .parameters
-        .push(Parameter {
-            category,
-            option,
-            quantity,
-        })
-        .unwrap();
+    bench.give(&mut intent, category, name, Some(quantity));
     intent
 }
 

@@ -51,18 +51,20 @@ impl Bench {
             ..Intent::default()
         };
         for (category, name) in things {
-            let option = self.lexicon.option(*category, name).unwrap();
-            let (category, quantity) = (*category, None);
-            intent
-                .parameters
-                .push(Parameter {
-                    category,
-                    option,
-                    quantity,
-                })
-                .unwrap();
+            self.give(&mut intent, *category, name, None);
         }
         intent
+    }
+
+    /// Adds a parameter to an intent.
+    pub fn give(&self, intent: &mut Intent, category: Category, name: &str, quantity: Option<f32>) {
+        let option = self.lexicon.option(category, name).unwrap();
+        let parameter = Parameter {
+            category,
+            option,
+            quantity,
+        };
+        intent.parameters.push(parameter).unwrap();
     }
 
     pub fn begin_as(&mut self, number: u32, scene: u32, intent: Intent) -> Result<(), Refusal> {

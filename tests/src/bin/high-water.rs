@@ -4,17 +4,16 @@
 use std::path::Path;
 use std::time::Duration;
 
-use deictic::hand::session::Act;
 use deictic::hand::source::recording::framed;
 use deictic_bits::Bench;
 use deictic_core::board::{Sentence, ToHost, ToUnit};
-use deictic_core::gesture::shape::Shape;
 use deictic_core::profile::Profile;
 use deictic_core::protocol::message::{Configuration, Fault};
 use deictic_core::time::Micros;
-use deictic_tests::gesturing::{OBJECTS, RATE, STORAGES, person, ready, separate};
+use deictic_tests::gesturing::{RATE, person, ready};
 use deictic_tests::host::{Host, Wire};
 use deictic_tests::painted::Painted;
+use deictic_tests::sensing::put;
 
 /// Situations that are decided on in each way.
 const SAMPLES: u32 = 60;
@@ -47,15 +46,8 @@ fn main() {
 
 /// A hand shows something, at its sensor's pace.
 fn show(host: &mut Host<Painted>) {
-    let acts = [
-        Act::Show(Shape::ThumbsUp),
-        separate(),
-        Act::Point(OBJECTS[1]),
-        separate(),
-        Act::Point(STORAGES[0]),
-    ];
     host.say(&ToUnit::Relay(true));
-    for (i, sample) in person(3, &acts).iter().enumerate() {
+    for (i, sample) in person(3, &put()).iter().enumerate() {
         host.wire.sense(&framed(sample));
         std::thread::sleep(Duration::from_secs_f64(1.0 / RATE));
         if i % 20 == 0 {

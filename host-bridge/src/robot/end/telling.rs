@@ -36,20 +36,21 @@ impl End {
             };
             let id = current.id;
             let (number, run_low, groups) = (id.number, id.run as u16, current.groups);
+            let failed = |fault, text: &str| {
+                let text = Text::new(text);
+                FromRobot::from(Failed {
+                    id,
+                    groups,
+                    fault,
+                    text,
+                })
+            };
             let last: FromRobot = match event {
                 // A robot that answers later has been taken as having begun.
                 Event::Accepted(_) => continue,
                 Event::Refused { refusal, .. } => {
                     current.outcome = Outcome::Failed;
-                    let text = Text::new(&refusal.to_string());
-                    let fault = Fault::Other;
-                    Failed {
-                        id,
-                        groups,
-                        fault,
-                        text,
-                    }
-                    .into()
+                    failed(Fault::Other, &refusal.to_string())
                 }
                 Event::Begun {
                     step, number, of, ..
@@ -99,15 +100,7 @@ impl End {
                 }
                 Event::Stopped { step, .. } if current.host_lost => {
                     current.outcome = Outcome::Failed;
-                    let text = Text::new(&format!("no host at: {step}"));
-                    let fault = Fault::HostLost;
-                    Failed {
-                        id,
-                        groups,
-                        fault,
-                        text,
-                    }
-                    .into()
+                    failed(Fault::HostLost, &format!("no host at: {step}"))
                 }
                 Event::Stopped { step, .. } => {
                     current.outcome = Outcome::Stopped;
@@ -117,14 +110,7 @@ impl End {
                 Event::Failed { fault, why, .. } => {
                     current.outcome = Outcome::Failed;
                     self.faulted = true;
-                    let text = Text::new(&why);
-                    Failed {
-                        id,
-                        groups,
-                        fault,
-                        text,
-                    }
-                    .into()
+                    failed(fault, &why)
                 }
             };
             self.held = false;
