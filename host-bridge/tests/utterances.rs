@@ -156,3 +156,29 @@ fn a_second_czech_set_is_understood() {
     let (_, all) = check("Czech, second", &czech(), file, 0.95);
     assert!(all >= 24);
 }
+
+#[test]
+fn a_name_in_another_case_is_as_sure_as_its_nominative() {
+    let lexicon = czech();
+    let listener = Listener::new(&lexicon).unwrap();
+    let objects = |text: &str| {
+        let commands = listener.understand(text).unwrap().commands;
+        let words = commands[0].sentence.words().to_vec();
+        let object = words
+            .iter()
+            .find(|w| w.category() == Some(Category::OBJECT))
+            .unwrap();
+        object.likelihoods().to_vec()
+    };
+    let (can, cup) = (0, 1);
+    assert_eq!(objects("vezmi plechovku"), objects("vezmi plechovka"));
+    for text in [
+        "vezmi hrnek nebo plechovku",
+        "vezmi plechovku nebo hrnek",
+        "vezmi buď hrnek nebo plechovku",
+        "vezmi hrníček anebo konzervu",
+    ] {
+        let both = objects(text);
+        assert_eq!((both[can], both[cup]), (1.0, 1.0), "{text}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use deictic_core::category::Category;
 
-use super::forms::inflected;
+use super::forms::{inflected, mentions};
 use super::pack::Pack;
 use super::table::{Meaning, Table, words_of};
 use crate::vocabulary::Lexicon;
@@ -26,7 +26,8 @@ impl Table {
                 let Some((verb, rest)) = words.split_first() else {
                     continue;
                 };
-                for form in inflected(verb, &pack.endings.verb) {
+                let forms = inflected(verb, &pack.endings.verb);
+                for form in forms.chain(mentions(verb, &pack.verb)) {
                     let form = [std::slice::from_ref(&form), rest].concat();
                     if self.find_exact(&form).is_none() {
                         self.add_tokens(form, Meaning::Form(option));
@@ -34,7 +35,9 @@ impl Table {
                 }
                 for form in inflected(verb, &pack.endings.command) {
                     let form = [std::slice::from_ref(&form), rest].concat();
-                    self.add_tokens(form, Meaning::Name(Category::ACTION, option));
+                    if self.find_exact(&form).is_none_or(|known| !known.is_form()) {
+                        self.add_tokens(form, Meaning::Name(Category::ACTION, option));
+                    }
                 }
             }
         }

@@ -1,7 +1,8 @@
 //! The forms of words: plurals and cases of names, verbs that are no commands, negated verbs. What
 //! endings a language has is in its pack.
 
-use super::pack::Endings;
+use super::pack::{Endings, Verb};
+use super::token::fold;
 
 /// The keys of a word: two words are forms of one when they share a key.
 #[must_use]
@@ -42,6 +43,20 @@ pub fn inflected<'a>(verb: &'a str, endings: &'a [String]) -> impl Iterator<Item
             }
         }
         forms
+    })
+}
+
+/// The forms of a folded verb that are no commands: "vezmu" and "vezme" of "vezmi". At least one
+/// letter of it is left.
+pub fn mentions<'a>(verb: &'a str, verbs: &'a [Verb]) -> impl Iterator<Item = String> + 'a {
+    verbs.iter().flat_map(move |class| {
+        let stems = class.ends.iter();
+        let stems = stems.filter_map(move |end| verb.strip_suffix(fold(end).as_str()));
+        let stems = stems.filter(|stem| !stem.is_empty());
+        stems.flat_map(|stem| {
+            let put = move |ending: &String| format!("{stem}{}", fold(ending));
+            class.mentions.iter().map(put)
+        })
     })
 }
 
@@ -91,6 +106,19 @@ mod tests {
         ] {
             assert!(!one(a, b), "{a} {b}");
         }
+    }
+
+    #[test]
+    fn forms_that_are_no_commands_go_by_how_the_verb_ends() {
+        let class = |ends: &str, mentions: [&str; 2]| Verb {
+            ends: vec![ends.into()],
+            mentions: mentions.map(String::from).to_vec(),
+        };
+        let verbs = [class("", ["u", "ím"]), class("i", ["u", "eš"])];
+        let of = |verb| mentions(verb, &verbs).collect::<Vec<_>>();
+        assert_eq!(of("vezmi"), ["vezmiu", "vezmiim", "vezmu", "vezmes"]);
+        assert_eq!(of("seber"), ["seberu", "seberim"]);
+        assert_eq!(of("i"), ["iu", "iim"]);
     }
 
     #[test]

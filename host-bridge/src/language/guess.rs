@@ -28,6 +28,8 @@ pub struct Guesser {
     ear: Ear,
     names: Vec<(String, Sound, Category, u8)>,
     roles: Vec<(Sound, Role)>,
+    /// Forms of verbs that are no commands.
+    forms: Vec<(Sound, u8)>,
 }
 
 impl Guesser {
@@ -44,7 +46,14 @@ impl Guesser {
             words.map(|w| (ear.listen(w), role)).collect::<Vec<_>>()
         };
         let roles = ROLES.iter().flat_map(role).collect();
-        Self { ear, names, roles }
+        let forms = table.forms_of();
+        let forms = forms.map(|(words, o)| (ear.listen(&words), o)).collect();
+        Self {
+            ear,
+            names,
+            roles,
+            forms,
+        }
     }
 
     /// Takes unknown words that are like known ones for these; what was heard stays as it is.
@@ -75,9 +84,20 @@ impl Guesser {
                 // One word has one category; which of its options is left to the likelihoods.
                 let top = names.iter().filter(|n| n.0 == best);
                 let top = top.map(|&(_, category, option)| Meaning::Name(category, option));
-                piece.what = What::Known(top.collect());
+                piece.what = match self.form(&heard) {
+                    // "Vezmne" is "vezme" rather than "vezmi".
+                    (like, form) if like > best => What::Known(vec![Meaning::Form(form)]),
+                    _ => What::Known(top.collect()),
+                };
             }
         }
+    }
+
+    /// The form of a verb that is most like this, and how much.
+    fn form(&self, heard: &Sound) -> (f64, u8) {
+        let forms = self.forms.iter();
+        let alike = forms.map(|(sound, option)| (self.ear.likeness(heard, sound), *option));
+        alike.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0))
     }
 
     /// The known words that are most like this one, the nearest first.

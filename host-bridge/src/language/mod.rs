@@ -31,6 +31,7 @@ mod utter;
 
 use deictic_core::category::Category;
 use deictic_core::large::Sentence;
+use unicode_normalization::UnicodeNormalization;
 
 pub use compose::{SetAside, Why};
 pub use error::{LONGEST, LanguageError};
@@ -39,9 +40,10 @@ pub use spoken::Spoken;
 pub use token::text_of;
 pub use utter::Uncertainty;
 
-use crate::vocabulary::Lexicon;
+use crate::vocabulary::{Entry, Lexicon};
 use guess::Guesser;
 use pack::Pack;
+use read::Piece;
 use table::Table;
 use utter::Utterer;
 
@@ -141,6 +143,7 @@ impl<'a> Listener<'a> {
     pub fn understand(&self, text: &str) -> Result<Utterance, LanguageError> {
         let mut pieces = read::read(&token::tokens(text)?, &self.table)?;
         self.guesser.mend(&mut pieces);
+        self.told(&mut pieces, text);
         let clauses = mood::clauses(&pieces, &self.table);
         let plan = compose::compose(&clauses, &self.table, self.lexicon);
         let plan = plan.map_err(|e| self.with_nearest(e, text))?;
@@ -184,6 +187,24 @@ impl<'a> Listener<'a> {
     /// As [`Listener::understand`], and [`LanguageError::NotText`] for what is not UTF-8.
     pub fn understand_bytes(&self, bytes: &[u8]) -> Result<Utterance, LanguageError> {
         self.understand(text_of(bytes)?)
+    }
+
+    /// Takes verbs that only their accents tell from a command for the forms that they are.
+    fn told(&self, pieces: &mut [Piece], text: &str) {
+        let endings = &self.table.pack().endings;
+        let written = |text: &str| text.nfc().flat_map(char::to_lowercase).collect::<String>();
+        for piece in pieces.iter_mut().filter(|piece| piece.is_action()) {
+            let said = written(text.get(piece.span.clone()).unwrap_or_default());
+            let verb = said.split_whitespace().next().unwrap_or_default();
+            let ends = |ending: &String| verb.ends_with(&written(ending));
+            let entries = self.lexicon.entries(Category::ACTION).iter();
+            let listed = entries
+                .flat_map(Entry::spoken)
+                .any(|words| written(&words) == said);
+            if endings.told.iter().any(ends) && !listed {
+                piece.tell();
+            }
+        }
     }
 
     /// Adds the nearest words and the spelling of the text to an error about a word.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::error::LanguageError;
-pub use parts::{Answer, Endings, Joints, OptionWords, Quantity, Speech, Tags, Unit};
+pub use parts::{Answer, Endings, Joints, OptionWords, Quantity, Speech, Tags, Unit, Verb};
 
 /// What a grammar word does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
@@ -97,6 +97,9 @@ pub struct Pack {
     /// Forms of words.
     #[serde(default)]
     pub endings: Endings,
+    /// Forms of verbs that are no commands, where one list of endings for all verbs is not enough.
+    #[serde(default)]
+    pub verb: Vec<Verb>,
     /// Words for numbers.
     #[serde(default)]
     pub numbers: BTreeMap<String, f32>,

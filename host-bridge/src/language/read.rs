@@ -5,7 +5,7 @@ use super::error::LanguageError;
 use super::forms::is_negated;
 use super::pack::Role;
 use super::quantity::{Measured, measure};
-use super::table::{Meaning, Table};
+use super::table::{Longest, Meaning, Table};
 use super::token::{Kind, Token};
 use deictic_core::category::Category;
 
@@ -89,6 +89,17 @@ impl Piece {
         things.next().is_some()
     }
 
+    /// Makes forms of the actions that it names: they are told of, not commanded.
+    pub fn tell(&mut self) {
+        if let What::Known(meanings) = &mut self.what {
+            for meaning in meanings {
+                if let Meaning::Name(Category::ACTION, option) = *meaning {
+                    *meaning = Meaning::Form(option);
+                }
+            }
+        }
+    }
+
     fn meanings(&self) -> impl Iterator<Item = &Meaning> + '_ {
         match &self.what {
             What::Known(meanings) => meanings.iter(),
@@ -106,14 +117,15 @@ pub fn read(tokens: &[Token], table: &Table) -> Result<Vec<Piece>, LanguageError
     let mut at = 0;
     while let Some(token) = tokens.get(at) {
         let rest = tokens.get(at..).unwrap_or_default();
-        let (what, used) = match token.kind {
-            Kind::Comma => (What::Comma, 1),
-            Kind::Stop => (What::Stop, 1),
-            Kind::Question => (What::Question, 1),
+        let (what, used, known) = match token.kind {
+            Kind::Comma => (What::Comma, 1, None),
+            Kind::Stop => (What::Stop, 1, None),
+            Kind::Question => (What::Question, 1, None),
             Kind::Word => word(rest, table)?,
         };
         let used = rest.get(..used).unwrap_or(rest);
-        let words: Vec<_> = used.iter().map(|t| t.text.as_str()).collect();
+        let said = || used.iter().map(|token| token.text.clone()).collect();
+        let words = known.unwrap_or_else(said);
         let end = used.last().map_or(token.span.end, |t| t.span.end);
         pieces.push(Piece {
             what,
@@ -125,20 +137,24 @@ pub fn read(tokens: &[Token], table: &Table) -> Result<Vec<Piece>, LanguageError
     Ok(pieces)
 }
 
-fn word(rest: &[Token], table: &Table) -> Result<(What, usize), LanguageError> {
+/// What a text begins with, how many tokens that is, and the words of the phrase if they may be others
+/// than the tokens: "plechovku" is as surely "plechovka" as that itself.
+type Begun = (What, usize, Option<Vec<String>>);
+
+fn word(rest: &[Token], table: &Table) -> Result<Begun, LanguageError> {
     let longest = table.longest(rest);
-    let length = longest.as_ref().map_or(0, |(length, _)| *length);
+    let length = longest.as_ref().map_or(0, |known| known.words.len());
     match measure(rest, table)? {
         Some((Measured::Quantity(kind, value), used)) if used >= length => {
-            return Ok((What::Quantity(kind, value), used));
+            return Ok((What::Quantity(kind, value), used, None));
         }
         Some((Measured::Number(value), used)) if used > length => {
-            return Ok((What::Number(value), used));
+            return Ok((What::Number(value), used, None));
         }
         _ => {}
     }
     Ok(match longest {
-        Some((length, meanings)) => {
+        Some(Longest { words, meanings }) => {
             let quantity = meanings.iter().find_map(|m| match m {
                 Meaning::Quantity(kind, value) => Some(What::Quantity(*kind, *value)),
                 _ => None,
@@ -151,17 +167,17 @@ fn word(rest: &[Token], table: &Table) -> Result<(What, usize), LanguageError> {
                 _ => None,
             });
             if plain.is_empty() {
-                (quantity.or(number).unwrap_or(What::Unknown), length)
+                (quantity.or(number).unwrap_or(What::Unknown), length, None)
             } else {
-                (What::Known(plain), length)
+                (What::Known(plain), length, Some(words))
             }
         }
         None => match rest.first() {
             Some(t) if is_negated(&t.text, &table.pack().endings) => {
-                (What::Known(vec![Meaning::Role(Role::Not)]), 1)
+                (What::Known(vec![Meaning::Role(Role::Not)]), 1, None)
             }
-            _ if table.is_head(rest) => (What::Known(vec![Meaning::Head]), 1),
-            _ => (What::Unknown, 1),
+            _ if table.is_head(rest) => (What::Known(vec![Meaning::Head]), 1, None),
+            _ => (What::Unknown, 1, None),
         },
     })
 }

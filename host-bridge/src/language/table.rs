@@ -42,6 +42,21 @@ pub(super) struct Phrase {
     meanings: Vec<Meaning>,
 }
 
+impl Phrase {
+    pub(super) fn is_form(&self) -> bool {
+        self.meanings.iter().any(|m| matches!(m, Meaning::Form(_)))
+    }
+}
+
+/// A known phrase that begins a text, in that form or another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Longest {
+    /// Its words as the vocabulary or the pack has them.
+    pub words: Vec<String>,
+    /// All that it can mean.
+    pub meanings: Vec<Meaning>,
+}
+
 /// All known phrases of one vocabulary in one language.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -158,10 +173,10 @@ impl Table {
         self.find_exact(&words).map_or(&[], |p| &p.meanings)
     }
 
-    /// The longest known phrase at the start of `tokens`: its length and meanings. Forms of names
-    /// count when no phrase of that length is there as it stands.
+    /// The longest known phrase at the start of `tokens`. Forms of names count when no phrase of that
+    /// length is there as it stands.
     #[must_use]
-    pub fn longest(&self, tokens: &[Token]) -> Option<(usize, Vec<Meaning>)> {
+    pub fn longest(&self, tokens: &[Token]) -> Option<Longest> {
         let first = &tokens.first()?.text;
         let run = tokens.iter().take_while(|t| t.kind == Kind::Word).count();
         let fits = |p: &&Phrase| p.tokens.len() <= run;
@@ -192,7 +207,10 @@ impl Table {
             .max_by_key(|p| p.tokens.len());
         match (exact, alike) {
             (Some(a), Some(b)) if b.tokens.len() > a.tokens.len() => Some(things(b)),
-            (Some(a), _) => Some((a.tokens.len(), a.meanings.clone())),
+            (Some(a), _) => Some(Longest {
+                words: a.tokens.clone(),
+                meanings: a.meanings.clone(),
+            }),
             (None, Some(b)) => Some(things(b)),
             (None, None) => None,
         }
@@ -205,6 +223,16 @@ impl Table {
                 Meaning::Name(category, option) => {
                     Some((phrase.tokens.join(" "), *category, *option))
                 }
+                _ => None,
+            })
+        })
+    }
+
+    /// Every form of an action's verb that is no command: its words and the action.
+    pub fn forms_of(&self) -> impl Iterator<Item = (String, u8)> + '_ {
+        self.phrases.iter().flat_map(|phrase| {
+            phrase.meanings.iter().filter_map(|m| match m {
+                Meaning::Form(option) => Some((phrase.tokens.join(" "), *option)),
                 _ => None,
             })
         })
@@ -228,10 +256,13 @@ impl Table {
     }
 }
 
-fn things(phrase: &Phrase) -> (usize, Vec<Meaning>) {
+fn things(phrase: &Phrase) -> Longest {
     let things = phrase.meanings.iter();
     let things = things.filter(|m| matches!(m, Meaning::Name(c, _) if *c != Category::ACTION));
-    (phrase.tokens.len(), things.copied().collect())
+    Longest {
+        words: phrase.tokens.clone(),
+        meanings: things.copied().collect(),
+    }
 }
 
 fn is_form(word: &str, said: &str, pack: &Pack) -> bool {

@@ -57,9 +57,22 @@ pub struct Endings {
     /// What negates a verb in front of it.
     #[serde(default)]
     pub negative: Vec<String>,
+    /// Of verbs that are no commands though they are one but for their accents: "umístí" and "umísti".
+    #[serde(default)]
+    pub told: Vec<String>,
     /// Letters of a word that are never taken for an ending.
     #[serde(default)]
     pub keep: usize,
+}
+
+/// Forms of verbs that are no commands, by how the verb ends as a vocabulary has it.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verb {
+    /// What is taken off the end: "i" of "vezmi"; an empty one takes nothing off.
+    pub ends: Vec<String>,
+    /// What is put there for the forms that are no commands: "u" of "vezmu".
+    pub mentions: Vec<String>,
 }
 
 /// Words inside numbers.
