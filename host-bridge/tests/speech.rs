@@ -155,38 +155,6 @@ fn what_is_told_the_robot_itself_is_done_when_it_was_heard_clearly() {
 }
 
 #[test]
-fn a_word_that_was_hardly_heard_is_none() {
-    let lexicon = Lexicon::tabletop().unwrap();
-    let listener = Listener::new(&lexicon).unwrap();
-    let words = |put: f64| {
-        let spoken = Spoken {
-            alternatives: vec![
-                ("please stop".to_owned(), 1.0 - put),
-                ("put the cup in the drawer".to_owned(), put),
-            ],
-        };
-        let utterance = listener.hear(&spoken).unwrap();
-        utterance.commands[0].sentence.words().len()
-    };
-    assert_eq!((words(1e-6), words(0.005)), (1, 3));
-}
-
-#[test]
-fn what_may_have_been_talk_is_to_be_said_again() {
-    let lexicon = Lexicon::tabletop().unwrap();
-    let listener = Listener::new(&lexicon).unwrap();
-    let spoken = |talk: f64| Spoken {
-        alternatives: vec![
-            ("pick the cup".to_owned(), 1.0 - talk),
-            (String::new(), talk),
-        ],
-    };
-    assert_eq!(listener.hear(&spoken(0.001)).unwrap().commands.len(), 1);
-    let unclear = listener.hear(&spoken(0.2)).unwrap_err();
-    assert!(unclear.to_string().contains("pick the cup"), "{unclear}");
-}
-
-#[test]
 fn a_session_does_what_a_recording_says() {
     if !installed() {
         return;
@@ -290,42 +258,5 @@ fn a_source_that_is_not_there_is_named() {
     assert!(
         !output.status.success() && said.contains("no such file.wav"),
         "{said}"
-    );
-}
-
-#[test]
-fn what_may_have_been_said_stays_in_question() {
-    let lexicon = Lexicon::tabletop().unwrap();
-    let listener = Listener::new(&lexicon).unwrap();
-    let heard = |texts: &[(&str, f64)]| {
-        let line = texts.iter().map(
-            |(text, confidence)| serde_json::json!({ "text": text, "confidence": confidence }),
-        );
-        let line = serde_json::json!({ "alternatives": line.collect::<Vec<_>>() });
-        listener.hear(&Spoken::read(&line.to_string()).unwrap())
-    };
-    let object = |texts: &[(&str, f64)]| {
-        let sentence = heard(texts).unwrap().commands[0].sentence.clone();
-        let words = sentence.words();
-        let word = words
-            .iter()
-            .find(|w| w.category() == Some(Category::OBJECT));
-        let likelihoods = word.unwrap().likelihoods();
-        // can, cup, cube, box, cleaner
-        (likelihoods[0], likelihoods[1])
-    };
-    let (can, cup) = object(&[("pick the can", 0.9), ("pick the cup", 0.1)]);
-    assert_eq!((can, cup), (1.0, 1.0));
-    let (can, cup) = object(&[
-        ("pick the can", 1.0 - RISK / 2.0),
-        ("pick the cup", RISK / 2.0),
-    ]);
-    assert!(can == 1.0 && cup < 1.0, "{can} {cup}");
-    assert!(heard(&[("pick the can", 0.9), ("do not pick the can", 0.1)]).is_err());
-    assert!(
-        heard(&[("do not pick the can", 0.9), ("pick the can", 0.1)])
-            .unwrap()
-            .commands
-            .is_empty()
     );
 }

@@ -90,6 +90,12 @@ pub enum LanguageError {
         /// The likeliest alternative.
         text: String,
     },
+    /// Several quantities may have been said.
+    #[error("\"{text}\" may have been another quantity")]
+    UnclearQuantity {
+        /// The likeliest alternative.
+        text: String,
+    },
     /// The vocabulary asks for a language that no pack was found for.
     #[error("no language pack \"{language}\"")]
     NoPack {
@@ -132,7 +138,7 @@ impl LanguageError {
             Self::UnknownUnit { known, .. } => format!("known units: {}", known.join(", ")),
             Self::BadQuantity { .. } => "give a number below a million".into(),
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
-            Self::Unclear { .. } => "say it again".into(),
+            Self::Unclear { .. } | Self::UnclearQuantity { .. } => "say it again".into(),
             Self::NoPack { .. } => {
                 "use language = \"en\", \"cs\" or the name of a pack's file in the vocabulary"
                     .into()

@@ -103,7 +103,8 @@ impl Listener<'_> {
     ///
     /// # Errors
     /// As [`Listener::understand`] when no alternative is understood, and
-    /// [`LanguageError::Unclear`] when too many are no commands.
+    /// [`LanguageError::Unclear`] when too many are no commands, [`LanguageError::UnclearQuantity`] when
+    /// too many tell other quantities.
     pub fn hear(&self, spoken: &Spoken) -> Result<Utterance, LanguageError> {
         let mut heard: Vec<(Utterance, f64)> = Vec::new();
         let mut error = LanguageError::Empty;
@@ -146,6 +147,24 @@ impl Listener<'_> {
             .iter()
             .filter(|(u, _)| u.commands.len() == count)
             .collect();
+        // The hand and the scene do not tell how far was meant.
+        let told = |u: &Utterance| {
+            let words = u.commands.iter().flat_map(|c| c.sentence.words());
+            let actions = u.commands.iter().map(|c| c.best(Category::ACTION));
+            (
+                actions.collect::<Vec<_>>(),
+                words.filter_map(Word::quantity).collect::<Vec<_>>(),
+            )
+        };
+        let (actions, quantities) = told(best);
+        let others = alike.iter().filter(|(u, _)| {
+            let (a, q) = told(u);
+            a == actions && q != quantities
+        });
+        if others.map(|(_, share)| share).sum::<f64>() > self.risk * all {
+            let text = spoken.best().to_owned();
+            return Err(LanguageError::UnclearQuantity { text });
+        }
         // Where figures are taken for the likelihoods that they are, they stay as they are.
         let alike_above = match self.uncertainty {
             Uncertainty::Likelihood { .. } => f64::INFINITY,

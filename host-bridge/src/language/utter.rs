@@ -43,6 +43,10 @@ impl Default for Uncertainty {
     }
 }
 
+/// The largest [`Uncertainty::Likelihood`] of an option beside one that was named to the letter: "into"
+/// is 0.875 like "onto" and had 0.04 of it, so that the joint model asked about either.
+const EXACT: f32 = 0.001;
+
 /// Makes sentences.
 #[derive(Clone, Copy, Debug)]
 pub struct Utterer<'a> {
@@ -123,7 +127,13 @@ impl Utterer<'_> {
                 }
             }
             Uncertainty::Likelihood { sharpness } if most > 0.0 => {
-                (alike / most).powi(i32::from(sharpness.max(1))) as f32
+                let likelihood = (alike / most).powi(i32::from(sharpness.max(1))) as f32;
+                // What is a word of the vocabulary to the letter was hardly a misspelt other one.
+                if most >= 1.0 && alike < 1.0 {
+                    likelihood.min(EXACT)
+                } else {
+                    likelihood
+                }
             }
             Uncertainty::Likelihood { .. } => 0.0,
             Uncertainty::Likeness { sharpness } => {

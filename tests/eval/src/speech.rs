@@ -1,9 +1,11 @@
 //! Speech end to end: spoken by espeak-ng, disturbed by sox, heard by pocketsphinx, fused with a
 //! pointing hand, decided by the core.
 
+mod heard;
 mod say;
 mod trial;
 
+pub use heard::{Heard, Scored};
 pub use say::{Said, said, speak, talk};
 pub use trial::{Answer, Trial};
 

@@ -119,6 +119,18 @@ pub struct Speech {
     pub yes: Vec<String>,
     /// The answer that it is not so.
     pub no: Vec<String>,
+    /// Before a quantity.
+    #[serde(default)]
+    pub by: Vec<String>,
+    /// Numbers, of those in the pack's table of numbers.
+    #[serde(default)]
+    pub number: Vec<String>,
+    /// Units, of those in the pack's tables of units.
+    #[serde(default)]
+    pub unit: Vec<String>,
+    /// Quantities without number, of those in the pack's tables of quantities.
+    #[serde(default)]
+    pub quantity: Vec<String>,
     /// What is told the robot itself: to hold, to go on, to go home, that a fault was seen to.
     #[serde(default)]
     pub order: Vec<String>,

@@ -34,9 +34,15 @@ pub fn grammar() -> String {
     format!("#JSGF V1.0;\ngrammar anything;\npublic <utterance> = ({words})+;\n")
 }
 
+/// How many times 10 ms these samples take.
+#[must_use]
+pub fn frames(samples: usize) -> f64 {
+    samples as f64 / FRAME as f64
+}
+
 /// The score that a recording of so many samples must beat to be a command, given how well any
 /// sounds fit it.
 #[must_use]
 pub fn bar(score: f64, samples: usize) -> f64 {
-    score - LEAD * (samples / FRAME) as f64
+    score - LEAD * frames(samples)
 }

@@ -7,9 +7,21 @@ use std::path::Path;
 use std::process::Command;
 use std::thread;
 
+use super::anything::frames;
 use super::error::SpeechError;
 use super::pocketsphinx::{PROGRAM, Pocketsphinx};
 use super::program::{file, run, write};
+
+/// How well a recording fits some texts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fits {
+    /// ln of the acoustic likelihood of each text, in units that [`super::pocketsphinx::SCALE`] tells of;
+    /// `None` for a text that does not fit at all, or has a word that is none of the vocabulary's.
+    pub texts: Vec<Option<f64>>,
+    /// How much better any sounds in any order fit than the best of these texts, per 10 ms; `None` where
+    /// no text fits.
+    pub loose: Option<f64>,
+}
 
 /// A text as the only path of a network of words, as pocketsphinx reads one.
 fn network(text: &str) -> String {
@@ -24,18 +36,17 @@ fn network(text: &str) -> String {
 }
 
 impl Pocketsphinx {
-    /// How well samples of [`super::sound::RATE`] fit each of these texts: ln of the acoustic likelihood in
-    /// units that [`super::pocketsphinx::SCALE`] tells of; `None` for a text that does not fit at all,
-    /// or has a word that is none of the vocabulary's. An eighth of a second of one core per text.
+    /// How well samples of [`super::sound::RATE`] fit these texts. An eighth of a second of one core per
+    /// text and as much again.
     ///
     /// # Errors
     /// [`SpeechError`].
-    pub fn fits(&self, samples: &[i16], texts: &[&str]) -> Result<Vec<Option<f64>>, SpeechError> {
+    pub fn fits(&self, samples: &[i16], texts: &[&str]) -> Result<Fits, SpeechError> {
         let folder = self.take(samples)?;
         let workers = thread::available_parallelism().map_or(1, usize::from);
         let each = texts.len().div_ceil(workers.max(1)).max(1);
         let parts: Vec<_> = texts.chunks(each).enumerate().collect();
-        let fits = thread::scope(|scope| {
+        let (fits, sounds) = thread::scope(|scope| {
             let begin = |(part, texts)| {
                 scope.spawn({
                     let folder = &folder;
@@ -43,12 +54,18 @@ impl Pocketsphinx {
                 })
             };
             let workers: Vec<_> = parts.into_iter().map(begin).collect();
+            let sounds = self.sounds(&folder);
             let results = workers.into_iter().filter_map(|w| w.join().ok());
-            results.collect::<Result<Vec<_>, SpeechError>>()
+            (results.collect::<Result<Vec<_>, SpeechError>>(), sounds)
         });
         // A folder that stays is removed with its parent.
         let _ = fs::remove_dir_all(&folder);
-        Ok(fits?.concat())
+        let texts = fits?.concat();
+        let best = texts.iter().flatten().copied().max_by(f64::total_cmp);
+        let loose = sounds?
+            .zip(best)
+            .map(|(sounds, best)| (sounds - best) / frames(samples.len()));
+        Ok(Fits { texts, loose })
     }
 
     /// One run over some texts.

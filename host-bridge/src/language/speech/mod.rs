@@ -6,8 +6,10 @@
 //! in by its lines ([`crate::language::Spoken::read`]).
 
 mod anything;
+mod commands;
 mod error;
 mod fits;
+mod measures;
 pub mod moonshine;
 mod paths;
 pub mod phrases;

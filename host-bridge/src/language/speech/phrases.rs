@@ -6,9 +6,10 @@
 
 use std::collections::BTreeSet;
 
-use deictic_core::category::Category;
+use deictic_core::category::{BitSet, Category};
 
-use super::rule::Rule;
+use super::measures::Measures;
+use super::rule::{Rule, all};
 use crate::language::pack::{Pack, Speech};
 use crate::language::token::{Kind, tokens};
 use crate::vocabulary::Lexicon;
@@ -16,13 +17,31 @@ use crate::vocabulary::Lexicon;
 /// All phrases of a vocabulary that can be said aloud.
 #[derive(Clone, Debug)]
 pub struct Phrases {
-    speech: Speech,
-    /// Per option: its phrases, and whether an action needs an object and a storage.
-    actions: Vec<(Vec<String>, bool, bool)>,
-    objects: Vec<Vec<String>>,
-    storages: Vec<Vec<String>>,
-    directions: Vec<String>,
+    pub(super) speech: Speech,
+    pub(super) actions: Vec<Verbs>,
+    pub(super) objects: Vec<Vec<String>>,
+    pub(super) storages: Vec<Vec<String>>,
+    pub(super) directions: Vec<String>,
+    pub(super) measures: Measures,
     left_out: Vec<String>,
+}
+
+/// What an action is called, and what is said with it.
+#[derive(Clone, Debug)]
+pub(super) struct Verbs {
+    pub phrases: Vec<String>,
+    pub takes: Takes,
+}
+
+/// What is said with an action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Takes {
+    pub object: bool,
+    pub storage: bool,
+    /// Whether it may be said where to.
+    pub direction: bool,
+    /// The categories of which a quantity may be said.
+    pub measures: BitSet,
 }
 
 /// What a rule is to be restricted to.
@@ -68,32 +87,40 @@ impl Phrases {
         };
         let (actions, objects) = (of(Category::ACTION), of(Category::OBJECT));
         let (storages, directions) = (of(Category::STORAGE), of(Category::DIRECTION).concat());
-        let needs = |action: usize, category: Category| {
-            let action = lexicon.vocabulary().actions().get(action);
-            action.is_some_and(|a| a.signature.compulsory.contains(category.index()))
-        };
+        let signatures = lexicon.vocabulary().actions().iter().map(|a| a.signature);
         let actions: Vec<_> = actions
             .into_iter()
-            .enumerate()
-            .map(|(a, mut phrases)| {
-                let object = needs(a, Category::OBJECT);
-                let storage = needs(a, Category::STORAGE);
+            .zip(signatures)
+            .map(|(mut phrases, signature)| {
+                let needs = |c: Category| signature.compulsory.contains(c.index());
+                let any = signature.compulsory.union(signature.voluntary);
+                let named = [Category::OBJECT, Category::STORAGE, Category::DIRECTION];
+                let measured = any.iter().filter(|i| named.iter().all(|c| c.index() != *i));
+                let storage = needs(Category::STORAGE);
                 // "put on the cup into the drawer" is said by nobody, and sounds like "put the cup".
                 let goes = |w: &str| speech.preposition.iter().any(|p| p == w);
                 let open = |p: &String| p.split(' ').skip(1).any(goes);
                 if storage && !phrases.iter().all(open) {
                     phrases.retain(|p| !open(p));
                 }
-                (phrases, object, storage)
+                let takes = Takes {
+                    object: needs(Category::OBJECT),
+                    storage,
+                    direction: any.contains(Category::DIRECTION.index()),
+                    measures: measured.fold(BitSet::EMPTY, BitSet::with),
+                };
+                Verbs { phrases, takes }
             })
             .collect();
-        let said = actions.iter().any(|(phrases, ..)| !phrases.is_empty());
+        let said = actions.iter().any(|verbs| !verbs.phrases.is_empty());
+        let measures = Measures::new(lexicon, pack, &speech, pronounced);
         said.then_some(Self {
             speech,
             actions,
             objects,
             storages,
             directions,
+            measures,
             left_out,
         })
     }
@@ -119,10 +146,11 @@ impl Phrases {
             &speech.no,
             &speech.order,
         ];
-        let names = self.actions.iter().map(|(phrases, ..)| phrases);
+        let names = self.actions.iter().map(|verbs| &verbs.phrases);
         let names = names.chain(&self.objects).chain(&self.storages);
         let all = grammar.into_iter().chain(names).chain([&self.directions]);
-        all.flatten().flat_map(|p| p.split(' ')).collect()
+        let all = all.flatten().chain(self.measures.phrases());
+        all.flat_map(|p| p.split(' ')).collect()
     }
 
     /// Words of which no meaning changes when they are left out.
@@ -164,7 +192,7 @@ impl Phrases {
     pub fn rule(&self, only: Only) -> Option<Rule> {
         let list = match only {
             Only::Command | Only::Option(..) | Only::Forbidden => return self.of_commands(only),
-            Only::Name(Category::ACTION, o) => &self.actions.get(o)?.0,
+            Only::Name(Category::ACTION, o) => &self.actions.get(o)?.phrases,
             Only::Name(Category::OBJECT, o) => self.objects.get(o)?,
             Only::Name(_, o) => self.storages.get(o)?,
             Only::Order => &self.speech.order,
@@ -179,64 +207,6 @@ impl Phrases {
         let names = Rule::any_of(list)?;
         Some(all([determiner, Some(names), polite]))
     }
-
-    fn of_commands(&self, only: Only) -> Option<Rule> {
-        let fits = |category: Category, option: usize| match only {
-            Only::Option(c, o) => c != category || o == option,
-            _ => true,
-        };
-        let fixed = |category| matches!(only, Only::Option(c, _) if c == category);
-        let (object, storage) = (fixed(Category::OBJECT), fixed(Category::STORAGE));
-        let names = |category: Category, all: &[Vec<String>]| {
-            let fitting = all.iter().enumerate().filter(|(o, _)| fits(category, *o));
-            Rule::any_of(&fitting.flat_map(|(_, p)| p.clone()).collect::<Vec<_>>())
-        };
-        let verbs = |takes_object: bool, takes_storage: bool| {
-            let fitting = self.actions.iter().enumerate().filter(|(a, (_, o, s))| {
-                fits(Category::ACTION, *a) && (*o, *s) == (takes_object, takes_storage)
-            });
-            let phrases = fitting.flat_map(|(_, (p, ..))| p.clone());
-            Rule::any_of(&phrases.collect::<Vec<_>>())
-        };
-        let speech = &self.speech;
-        let determiner = || Rule::maybe_of(&speech.determiner);
-        let shown = |list: &[String], fixed: bool| Rule::any_of(list).filter(|_| !fixed);
-        let targets = names(Category::OBJECT, &self.objects);
-        let targets = targets.map(|names| all([determiner(), Some(names)]));
-        let target = either([targets, shown(&speech.pointed, object)]);
-        let goals = names(Category::STORAGE, &self.storages);
-        let preposition = Rule::any_of(&speech.preposition);
-        let goals = goals.map(|names| all([preposition, determiner(), Some(names)]));
-        let goal = either([goals, shown(&speech.place, storage)]);
-        let aside = Rule::maybe_of(&self.directions);
-        let alone = verbs(false, false).filter(|_| !object && !storage);
-        let one = match (verbs(true, false), &target, storage) {
-            (Some(one), Some(target), false) => Some(all([Some(one), Some(target.clone()), aside])),
-            _ => None,
-        };
-        let two = match (verbs(true, true), target, goal) {
-            (Some(two), Some(target), Some(goal)) => Some(Rule::All(vec![two, target, goal])),
-            _ => None,
-        };
-        let commands = either([alone, one, two])?;
-        let not = match only {
-            Only::Forbidden => Some(Rule::any_of(&speech.not)?),
-            _ => None,
-        };
-        let polite = || Rule::maybe_of(&speech.polite);
-        Some(all([polite(), not, Some(commands), polite()]))
-    }
-}
-
-/// What there is of these, one after another.
-fn all<const N: usize>(rules: [Option<Rule>; N]) -> Rule {
-    Rule::All(rules.into_iter().flatten().collect())
-}
-
-/// What there is of these, one of them.
-fn either<const N: usize>(rules: [Option<Rule>; N]) -> Option<Rule> {
-    let rules: Vec<_> = rules.into_iter().flatten().collect();
-    (!rules.is_empty()).then_some(Rule::Any(rules))
 }
 
 /// The words of a phrase alone, as a dictionary has them.

@@ -162,7 +162,6 @@ impl Pocketsphinx {
         expected: Expected,
     ) -> Result<Vec<(String, f64)>, SpeechError> {
         let folder = self.take(samples)?;
-        write(&folder.join("list"), "said\n")?;
         let grammars = match expected {
             Expected::Command => &self.commands,
             Expected::Answer => &self.answers,
@@ -181,11 +180,11 @@ impl Pocketsphinx {
             let results = workers.into_iter().filter_map(|w| w.join().ok());
             results.collect::<Result<Vec<_>, SpeechError>>()
         })?;
-        let other = self.best(&folder, &self.anything)?;
+        let sounds = self.sounds(&folder)?;
         // A folder that stays is removed with its parent.
         let _ = fs::remove_dir_all(&folder);
         let mut best: HashMap<String, f64> = HashMap::new();
-        if let Some((_, score)) = other {
+        if let Some(score) = sounds {
             best.insert(String::new(), anything::bar(score, samples.len()));
         }
         for (text, score) in heard.into_iter().flatten() {
@@ -205,7 +204,13 @@ impl Pocketsphinx {
         let said = folder.join("said.raw");
         let samples = sound::prepared(samples, Colour::Pink, COMFORT);
         sound::write(&said, &samples).map_err(file(&said))?;
+        write(&folder.join("list"), "said\n")?;
         Ok(folder)
+    }
+
+    /// How well any sounds in any order fit a recording that was made ready.
+    pub(super) fn sounds(&self, take: &Path) -> Result<Option<f64>, SpeechError> {
+        Ok(self.best(take, &self.anything)?.map(|(_, score)| score))
     }
 
     /// Tells a run over a list of takes what all runs have in common.

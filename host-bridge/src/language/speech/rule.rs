@@ -57,6 +57,17 @@ impl fmt::Display for Rule {
     }
 }
 
+/// What there is of these, one after another.
+pub(super) fn all<const N: usize>(rules: [Option<Rule>; N]) -> Rule {
+    Rule::All(rules.into_iter().flatten().collect())
+}
+
+/// One of these; `None` without any.
+pub(super) fn either(rules: impl IntoIterator<Item = Rule>) -> Option<Rule> {
+    let rules: Vec<_> = rules.into_iter().collect();
+    (!rules.is_empty()).then_some(Rule::Any(rules))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

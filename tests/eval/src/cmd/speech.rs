@@ -1,20 +1,18 @@
 //! `deictic-eval speech`
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use anyhow::Context;
 use deictic::language::pack::Pack;
-use deictic::language::speech::moonshine::{Scores, Weights, Writing};
-use deictic::language::speech::pocketsphinx::{self, MODEL, Pocketsphinx};
-use deictic::language::speech::sound::range;
-use deictic::language::speech::{Expected, Kind, Recogniser, samples};
-use deictic::language::{LanguageError, Listener, Spoken, Uncertainty};
+use deictic::language::speech::moonshine::Weights;
+use deictic::language::speech::pocketsphinx::{self, MODEL};
+use deictic::language::speech::{Kind, Recogniser};
+use deictic::language::{Listener, Uncertainty};
 use deictic::sensor_model::SensorModel;
 use deictic::vocabulary::Lexicon;
 use deictic_core::joint::Tables;
 use deictic_core::profile::Profile;
-use deictic_eval::speech::{Answer, FITTED, LEVELS, SCORED, Said, Trial, said, speak, talk};
+use deictic_eval::speech::{Answer, FITTED, Heard, LEVELS, SCORED, Trial, said, talk};
 use indicatif::ProgressBar;
 
 /// Score speech from the voice to the decision, in whole intents.
@@ -45,6 +43,12 @@ pub struct Speech {
     /// Score how far talk must be ahead of commands, heard by Moonshine
     #[arg(long, value_delimiter = ',')]
     lead: Vec<f64>,
+    /// Score what it adds that any sounds fit better than the commands do
+    #[arg(long, value_delimiter = ',')]
+    loose: Vec<f64>,
+    /// Score what it adds that a question was written
+    #[arg(long, value_delimiter = ',')]
+    question: Vec<f64>,
     /// Score how much of Moonshine's habits is taken away
     #[arg(long, value_delimiter = ',')]
     habit: Vec<f64>,
@@ -77,6 +81,10 @@ struct Score {
     scale: f64,
     /// Moonshine's bar against talk.
     lead: f64,
+    /// What it adds that any sounds fit better.
+    loose: f64,
+    /// What it adds that a question was written.
+    question: f64,
     /// How much of Moonshine's habits is taken away.
     habit: f64,
     /// What pocketsphinx's scores count.
@@ -89,60 +97,6 @@ struct Score {
     asked: f64,
     /// Seconds per utterance, by the clock.
     seconds: f64,
-}
-
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Heard {
-    said: Said,
-    voice: String,
-    level: Option<i32>,
-    scores: Scored,
-    seconds: f64,
-}
-
-/// What a recogniser made of it.
-#[derive(serde::Serialize, serde::Deserialize)]
-enum Scored {
-    Moonshine(Scores),
-    Pocketsphinx(Vec<(String, f64)>, Option<f32>),
-}
-
-impl Scored {
-    fn of(recogniser: &mut Recogniser, sound: &[i16]) -> anyhow::Result<Self> {
-        Ok(match recogniser {
-            Recogniser::Moonshine(m, second) => {
-                let scores = m.scores(sound, Expected::Command, second.as_ref())?;
-                Self::Moonshine(scores)
-            }
-            Recogniser::Pocketsphinx(p) => {
-                Self::Pocketsphinx(p.scores(sound, Expected::Command)?, range(sound))
-            }
-        })
-    }
-
-    fn weigh(&self, weights: Weights) -> Result<Spoken, LanguageError> {
-        match self {
-            Self::Moonshine(scores) => scores.weigh(weights),
-            Self::Pocketsphinx(scores, range) => Pocketsphinx::weigh(scores, *range, weights.scale),
-        }
-    }
-
-    /// The likeliest texts, for people.
-    fn told(&self) -> String {
-        let told = |w: &Writing| format!("{} {:.1} {:.1}", w.text, w.heard, w.anyway);
-        let best: Vec<_> = match self {
-            Self::Moonshine(scores) => {
-                let best = scores.allowed.iter().take(4).chain([&scores.free]);
-                best.map(told).collect()
-            }
-            Self::Pocketsphinx(scores, _) => {
-                let best = scores.iter().take(4);
-                best.map(|(text, score)| format!("{text} {score:.0}"))
-                    .collect()
-            }
-        };
-        best.join(", ")
-    }
 }
 
 impl Speech {
@@ -198,16 +152,18 @@ impl Speech {
         }
         println!("heard by {recogniser}");
         println!(
-            "model  said      noise    scale  lead  habit  second  power  right  wrong  asked  seconds"
+            "model  said      noise    scale  lead  loose  question  habit  second  power  right  wrong  asked  seconds"
         );
         for s in &scores {
             let noise = s.noise.map_or("none".to_owned(), |n| format!("{n} dB"));
             let said = if s.talk { "talk" } else { "commands" };
             println!(
-                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.1} {:>7.0} {:>6.2} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
+                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.2} {:>9.1} {:>6.1} {:>7.0} {:>6.2} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
                 s.model,
                 s.scale,
                 s.lead,
+                s.loose,
+                s.question,
                 s.habit,
                 s.second,
                 s.power,
@@ -239,6 +195,8 @@ impl Speech {
         };
         vary(&self.scale, |w, scale| Weights { scale, ..w });
         vary(&self.lead, |w, lead| Weights { lead, ..w });
+        vary(&self.loose, |w, loose| Weights { loose, ..w });
+        vary(&self.question, |w, question| Weights { question, ..w });
         vary(&self.habit, |w, habit| Weights { habit, ..w });
         vary(&self.second, |w, second| Weights { second, ..w });
         vary(&self.power, |w, noise| Weights { noise, ..w });
@@ -275,34 +233,22 @@ impl Speech {
         } else {
             (SCORED, self.seed)
         };
-        let folder = tempfile::tempdir().context("no folder for recordings")?;
-        let bar = ProgressBar::new(
-            (self.voices.min(voices.len()) * LEVELS.len() * (self.rounds * 9 + 20)) as u64,
-        );
-        let mut all = Vec::new();
-        for (v, voice) in (0..).zip(voices).take(self.voices) {
+        let voices = (0..).zip(voices).take(self.voices);
+        let all = voices.map(|(v, voice)| {
             let seed = seed * 100 + v;
-            let commands = said(lexicon, pack, self.rounds, seed);
-            for said in commands.into_iter().chain(talk(seed, self.fit)) {
-                for level in LEVELS {
-                    let recording = speak(folder.path(), voice, &said, level)?;
-                    let began = Instant::now();
-                    let sound = samples(&recording)?;
-                    let scores = Scored::of(recogniser, &sound)?;
-                    let said = said.clone();
-                    all.push(Heard {
-                        said,
-                        voice: voice.to_owned(),
-                        level,
-                        scores,
-                        seconds: began.elapsed().as_secs_f64(),
-                    });
-                    bar.inc(1);
-                }
-            }
+            let mut all = said(lexicon, pack, self.rounds, seed);
+            all.extend(talk(seed, self.fit));
+            (voice, all)
+        });
+        let all: Vec<_> = all.collect();
+        let count: usize = all.iter().map(|(_, said)| said.len() * LEVELS.len()).sum();
+        let bar = ProgressBar::new(count as u64);
+        let mut heard = Vec::new();
+        for (voice, said) in &all {
+            heard.extend(Heard::of_voice(voice, said, recogniser, || bar.inc(1))?);
         }
         bar.finish_and_clear();
-        Ok(all)
+        Ok(heard)
     }
 
     fn score<'a>(
@@ -342,6 +288,8 @@ impl Speech {
             recogniser: "",
             scale: weights.scale,
             lead: weights.lead,
+            loose: weights.loose,
+            question: weights.question,
             habit: weights.habit,
             second: weights.second,
             power: weights.noise,

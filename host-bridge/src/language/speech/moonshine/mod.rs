@@ -9,6 +9,7 @@ mod model;
 mod scores;
 mod search;
 mod tokens;
+mod weights;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -18,7 +19,8 @@ use std::sync::{Mutex, PoisonError};
 
 use ort::environment::Environment;
 
-pub use self::scores::{HABIT, LEAD, NOISE, SCALE, SECOND, Scores, Weights, Writing};
+pub use self::scores::{Scores, Writing};
+pub use self::weights::{HABIT, LEAD, LOOSE, NOISE, QUESTION, SCALE, SECOND, Weights};
 
 use self::model::{Model, Written};
 use self::search::{Found, Search, anything};
@@ -211,6 +213,7 @@ impl Moonshine {
             Ok(Scores {
                 allowed: allowed.into_iter().map(known).collect(),
                 free: writing(free, free_anyway),
+                loose: None,
                 range: range(samples),
             })
         };

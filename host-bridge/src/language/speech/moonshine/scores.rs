@@ -2,16 +2,14 @@
 //! to be, how gladly it writes it anyway, how well the sound fits it by another recogniser's reckoning,
 //! and how much rather something else altogether would be written.
 
+use super::weights::{HABIT, Weights};
+use crate::language::speech::fits::Fits;
 use crate::language::speech::pocketsphinx::doubt;
 use crate::language::{LanguageError, Spoken};
 
-/// How far ahead, as ln and per word, what is written without rules must be of the likeliest command
-/// for it to be as probable that the utterance was talk. A command is as many words and one more, for
-/// the silence around them; words that it lacks add to the lead. Of six voices of espeak-ng at four
-/// levels of noise, 12 sentences of talk each were ahead by 6.5 and more, and 99, 100, 100 and 98 % of
-/// the commands that were heard rightly, of 81, by less than 4. Without its habits taken away none of
-/// these was ahead by 3.8, and 33, 27, 50 and 40 % of those that were heard wrongly were.
-pub const LEAD: f64 = 4.2;
+/// What [`LOOSE`] is multiplied by where pocketsphinx was not asked, and where no command fits at all.
+const NOT_ASKED: f64 = 15.0;
+const NOTHING_FITS: f64 = 40.0;
 
 /// How much more probable talk is when it is ahead by one more, as ln.
 const STEEP: f64 = 10.0;
@@ -19,26 +17,6 @@ const STEEP: f64 = 10.0;
 /// How much less probable a text is than it is taken for, as ln, when the rules do not have it: what
 /// is said to a machine that takes commands is mostly one of them.
 const OTHERWISE: f64 = 6.0;
-
-/// How far a text must be behind in quiet, as ln, to be e times less probable; see [`NOISE`].
-pub const SCALE: f64 = 0.7;
-
-/// How much of ln of a text's probability of silence is taken from that of what was heard: the model
-/// has read more than it has heard, and writes "go on" rather than "go up" whatever was said (the
-/// internal language model, Meng et al. 2021, arXiv 2011.01991). Of 162 commands per level of noise by
-/// six voices, the likeliest was the one that was said in 94, 89, 86 and 73 % of them at 0, and in 98,
-/// 95, 91 and 84 % at 0.5.
-pub const HABIT: f64 = 0.5;
-
-/// How far a text must be behind by pocketsphinx's reckoning in quiet, in its units, to count as one
-/// behind by 1 by the model's own. Of 81 commands in quiet, by voices that are not scored, 88 % were
-/// the likeliest by 99 % without it, 96 % at 80 and 98 % at 120; one that was not said was, either way.
-pub const SECOND: f64 = 100.0;
-
-/// How much noise makes all of it doubtful: [`SCALE`] is multiplied by this power of what
-/// pocketsphinx's scores count less. With 10 and 5 dB, of 81 commands each, by voices that are not
-/// scored, 1 and 2 would have been done wrongly at 0, and one each at 0.25 and at 0.5, which asks more.
-pub const NOISE: f64 = 0.25;
 
 /// So many texts of different meaning are held against the sound a second time.
 const ASKED: usize = 5;
@@ -71,35 +49,11 @@ pub struct Scores {
     pub allowed: Vec<Writing>,
     /// What was written without rules.
     pub free: Writing,
+    /// How much better any sounds in any order fit than the best text, per 10 ms and by pocketsphinx's
+    /// reckoning, if that was asked.
+    pub loose: Option<f64>,
     /// How far the voice stands out of what is behind it ([`crate::language::speech::sound::range`]).
     pub range: Option<f32>,
-}
-
-/// How scores are weighed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weights {
-    /// [`SCALE`].
-    pub scale: f64,
-    /// [`LEAD`].
-    pub lead: f64,
-    /// [`HABIT`].
-    pub habit: f64,
-    /// [`SECOND`].
-    pub second: f64,
-    /// [`NOISE`].
-    pub noise: f64,
-}
-
-impl Default for Weights {
-    fn default() -> Self {
-        Self {
-            scale: SCALE,
-            lead: LEAD,
-            habit: HABIT,
-            second: SECOND,
-            noise: NOISE,
-        }
-    }
 }
 
 impl Writing {
@@ -117,25 +71,24 @@ impl Scores {
 
     /// How far ahead of the likeliest command talk is, per word; whichever is more with the model's
     /// habits or without, for what is no speech at all is written by habit.
-    fn ahead(&self, habit: f64) -> Option<f64> {
-        let ahead = |habit: f64| {
-            let best = self.best(habit)?;
-            let count = |text: &str| text.split_whitespace().count();
-            let words = count(&best.text);
-            let lacking = count(&self.free.text).saturating_sub(words) as f64;
-            Some((self.free.own(habit) - best.own(habit) + lacking) / (1.0 + words as f64))
-        };
-        Some(ahead(habit)?.max(ahead(0.0)?))
+    fn ahead(&self, weights: Weights) -> Option<f64> {
+        let habit = weights.habit;
+        let best = self.best(habit)?;
+        let count = |text: &str| text.split_whitespace().count();
+        let words = count(&best.text);
+        let lacking = count(&self.free.text).saturating_sub(words) as f64;
+        let by = |habit: f64| self.free.own(habit) - best.own(habit);
+        let lead = (by(habit).max(by(0.0)) + lacking) / (1.0 + words as f64);
+        let question = f64::from(u8::from(self.free.text.ends_with('?')));
+        let loose = self.loose.unwrap_or(NOT_ASKED);
+        Some(lead + weights.loose * loose + weights.question * question)
     }
 
-    /// Where several texts come into question, asks how well the sound `fits` them.
+    /// Where it is in doubt what was said, asks how well the sound `fits` the texts that come into question.
     ///
     /// # Errors
     /// Those of `fits`.
-    pub fn ask<E>(
-        &mut self,
-        fits: impl FnOnce(&[&str]) -> Result<Vec<Option<f64>>, E>,
-    ) -> Result<(), E> {
+    pub fn ask<E>(&mut self, fits: impl FnOnce(&[&str]) -> Result<Fits, E>) -> Result<(), E> {
         let mut order: Vec<&Writing> = self.allowed.iter().collect();
         order.sort_by(|a, b| b.own(HABIT).total_cmp(&a.own(HABIT)));
         let top = order.first().map_or(0.0, |w| w.own(HABIT));
@@ -146,12 +99,14 @@ impl Scores {
                 asked.push(writing);
             }
         }
-        if asked.len() < 2 {
+        // One text, and the very one that would be written without rules.
+        if asked.iter().all(|w| w.text == self.free.text) {
             return Ok(());
         }
         let texts: Vec<_> = asked.iter().map(|w| w.text.as_str()).collect();
-        let fits = fits(&texts)?;
-        let known: Vec<_> = asked.iter().map(|w| w.core.clone()).zip(fits).collect();
+        let Fits { texts, loose } = fits(&texts)?;
+        let known: Vec<_> = asked.iter().map(|w| w.core.clone()).zip(texts).collect();
+        self.loose = Some(loose.unwrap_or(NOTHING_FITS));
         for writing in &mut self.allowed {
             let same = known.iter().find(|(core, _)| *core == writing.core);
             writing.fits = same.and_then(|(_, fits)| *fits);
@@ -177,7 +132,7 @@ impl Scores {
         let top = largest(&mut all.iter().map(|s| s.1));
         let free = self.free.heard;
         // What nobody would write is no likelier for that, so habits count among commands alone.
-        let (talk, otherwise) = match (self.ahead(habit), self.best(habit)) {
+        let (talk, otherwise) = match (self.ahead(weights), self.best(habit)) {
             (Some(ahead), Some(best)) => {
                 let talk = top + scale * STEEP * (ahead - lead);
                 (talk, top + free - best.heard)
@@ -214,6 +169,7 @@ mod tests {
         Scores {
             allowed: allowed.iter().map(writing).collect(),
             free: writing(&free),
+            loose: None,
             range: None,
         }
     }
@@ -240,6 +196,19 @@ mod tests {
     }
 
     #[test]
+    fn sounds_that_fit_no_command_and_questions_are_talk() {
+        let mut odd = scores(&[("pick the cup", -7.5)], ("big the kappa", -2.0));
+        let best = |s: &Scores| s.weigh(Weights::default()).unwrap().best().to_owned();
+        odd.loose = Some(4.0);
+        assert_eq!(best(&odd), "pick the cup");
+        odd.loose = Some(NOTHING_FITS);
+        assert_eq!(best(&odd), "");
+        odd.loose = Some(10.0);
+        odd.free.text = "is the cup big?".into();
+        assert_eq!(best(&odd), "");
+    }
+
+    #[test]
     fn what_is_written_gladly_anyway_counts_less() {
         let mut scores = scores(&[("go on", -2.0), ("go up", -3.0)], ("go on", -2.0));
         let best = |s: &Scores| s.weigh(Weights::default()).unwrap().best().to_owned();
@@ -260,7 +229,10 @@ mod tests {
         let mut doubtful = scores(&said, ("put a cup", -2.0));
         let fits = |texts: &[&str]| -> Result<_, ()> {
             assert_eq!(texts, ["put the cup", "pour the cup"]);
-            Ok(vec![Some(-9000.0), Some(-8000.0)])
+            Ok(Fits {
+                texts: vec![Some(-9000.0), Some(-8000.0)],
+                loose: Some(3.0),
+            })
         };
         doubtful.ask(fits).unwrap();
         let fits: Vec<_> = doubtful.allowed.iter().map(|w| w.fits).collect();
