@@ -91,5 +91,6 @@ fn how_far_is_said_again_when_it_was_not_clear() {
     // The same distance in other words is no doubt, nor is another action, of which the unit asks.
     assert!(heard(five, "go up by five centimeters", 0.4).is_ok());
     assert!(heard("push this", "push this left", 0.3).is_ok());
+    assert!(heard("go up a bit", "go up and wait", 0.1).is_err());
     assert!(heard("stop", "move up nine centimetres", 0.3).is_ok());
 }

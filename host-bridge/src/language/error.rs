@@ -90,9 +90,9 @@ pub enum LanguageError {
         /// The likeliest alternative.
         text: String,
     },
-    /// Several quantities may have been said.
-    #[error("\"{text}\" may have been another quantity")]
-    UnclearQuantity {
+    /// What may have been said instead differs in what the hand and the scene do not tell.
+    #[error("\"{text}\" may have been another command")]
+    OtherCommand {
         /// The likeliest alternative.
         text: String,
     },
@@ -138,7 +138,7 @@ impl LanguageError {
             Self::UnknownUnit { known, .. } => format!("known units: {}", known.join(", ")),
             Self::BadQuantity { .. } => "give a number below a million".into(),
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
-            Self::Unclear { .. } | Self::UnclearQuantity { .. } => "say it again".into(),
+            Self::Unclear { .. } | Self::OtherCommand { .. } => "say it again".into(),
             Self::NoPack { .. } => {
                 "use language = \"en\", \"cs\" or the name of a pack's file in the vocabulary"
                     .into()

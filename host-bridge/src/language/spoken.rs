@@ -103,8 +103,8 @@ impl Listener<'_> {
     ///
     /// # Errors
     /// As [`Listener::understand`] when no alternative is understood, and
-    /// [`LanguageError::Unclear`] when too many are no commands, [`LanguageError::UnclearQuantity`] when
-    /// too many tell other quantities.
+    /// [`LanguageError::Unclear`] when too many are no commands, [`LanguageError::OtherCommand`] when too
+    /// many are fewer or more commands, or tell other quantities.
     pub fn hear(&self, spoken: &Spoken) -> Result<Utterance, LanguageError> {
         let mut heard: Vec<(Utterance, f64)> = Vec::new();
         let mut error = LanguageError::Empty;
@@ -143,27 +143,24 @@ impl Listener<'_> {
             return Err(LanguageError::Unclear { text });
         }
         let count = best.commands.len();
-        let alike: Vec<_> = heard
-            .iter()
-            .filter(|(u, _)| u.commands.len() == count)
-            .collect();
-        // The hand and the scene do not tell how far was meant.
-        let told = |u: &Utterance| {
+        let (alike, unlike): (Vec<_>, Vec<_>) =
+            heard.iter().partition(|(u, _)| u.commands.len() == count);
+        // The hand and the scene tell neither how many commands were meant nor how far.
+        let quantities = |u: &Utterance| -> Vec<_> {
             let words = u.commands.iter().flat_map(|c| c.sentence.words());
-            let actions = u.commands.iter().map(|c| c.best(Category::ACTION));
-            (
-                actions.collect::<Vec<_>>(),
-                words.filter_map(Word::quantity).collect::<Vec<_>>(),
-            )
+            words.filter_map(Word::quantity).collect()
         };
-        let (actions, quantities) = told(best);
-        let others = alike.iter().filter(|(u, _)| {
-            let (a, q) = told(u);
-            a == actions && q != quantities
-        });
-        if others.map(|(_, share)| share).sum::<f64>() > self.risk * all {
+        let (meant, far) = (actions(best), quantities(best));
+        let otherwise = alike
+            .iter()
+            .filter(|(u, _)| actions(u) == meant && quantities(u) != far);
+        let otherwise = unlike
+            .iter()
+            .filter(|(u, _)| !u.commands.is_empty())
+            .chain(otherwise);
+        if otherwise.map(|(_, share)| share).sum::<f64>() > self.risk * all && !self.is_stop(best) {
             let text = spoken.best().to_owned();
-            return Err(LanguageError::UnclearQuantity { text });
+            return Err(LanguageError::OtherCommand { text });
         }
         // Where figures are taken for the likelihoods that they are, they stay as they are.
         let alike_above = match self.uncertainty {
@@ -187,6 +184,12 @@ impl Listener<'_> {
         let first = utterance.commands.first();
         stop.is_some() && first.and_then(|c| c.best(Category::ACTION)) == stop
     }
+}
+
+/// The likeliest action of every command.
+fn actions(utterance: &Utterance) -> Vec<Option<u8>> {
+    let commands = utterance.commands.iter();
+    commands.map(|c| c.best(Category::ACTION)).collect()
 }
 
 /// Whether two utterances mean the same, however sure they are.
