@@ -1,123 +1,15 @@
-//! Speech through the recognisers: spoken by espeak-ng, heard by pocketsphinx and Moonshine. Skipped,
-//! and said so, where these are not installed. `deictic-eval speech` gives figures over voices and noise.
+//! Sessions that listen: recordings spoken by espeak-ng, and lines of another recogniser.
 
-use std::path::{Path, PathBuf};
+#[path = "common/voice.rs"]
+mod voice;
+
+use std::path::Path;
 use std::process::Command;
 
 use deictic::language::pack::Pack;
-use deictic::language::speech::pocketsphinx::MODEL;
-use deictic::language::speech::{Expected, Kind, Recogniser, moonshine, samples};
-use deictic::language::{Listener, RISK, Spoken};
 use deictic::session::Order;
-use deictic::vocabulary::Lexicon;
-use deictic_core::category::Category;
 use tempfile::TempDir;
-
-fn installed() -> bool {
-    let there = |program: &str| Command::new(program).arg("--version").output().is_ok();
-    let programs = ["espeak-ng", "sox", "pocketsphinx_batch"];
-    let all = programs.into_iter().all(there) && Path::new(MODEL).exists();
-    if !all {
-        eprintln!("skipped: espeak-ng, sox or pocketsphinx is not installed");
-    }
-    all
-}
-
-fn speak(folder: &TempDir, name: &str, text: &str) -> PathBuf {
-    let file = folder.path().join(name);
-    let mut espeak = Command::new("espeak-ng");
-    espeak
-        .args(["-v", "en-us", "-s", "140", "-w"])
-        .arg(&file)
-        .arg(text);
-    assert!(espeak.status().unwrap().success());
-    file
-}
-
-fn hears_what_is_said(kind: Kind) {
-    let lexicon = Lexicon::tabletop().unwrap();
-    let pack = Pack::built_in("en").unwrap();
-    let mut recogniser = Recogniser::open(kind, &lexicon, &pack, Path::new(MODEL)).unwrap();
-    let listener = Listener::new(&lexicon).unwrap();
-    let folder = TempDir::new().unwrap();
-    let mut hear = |text: &str, expected| {
-        let recording = speak(&folder, "said.wav", text);
-        recogniser
-            .hear(&samples(&recording).unwrap(), expected)
-            .unwrap()
-    };
-    for (text, action, object, storage) in [
-        ("release", "release", None, None),
-        ("pick the cup", "pick", Some("cup"), None),
-        (
-            "put the cube into the drawer",
-            "put-into",
-            Some("cube"),
-            Some("drawer"),
-        ),
-    ] {
-        let heard = hear(text, Expected::Command);
-        let utterance = listener.hear(&heard).unwrap();
-        let command = &utterance.commands[0];
-        let name = |c| command.best(c).map(|option| lexicon.option_name(c, option));
-        assert_eq!(name(Category::ACTION).as_deref(), Some(action), "{heard:?}");
-        assert_eq!(name(Category::OBJECT).as_deref(), object, "{heard:?}");
-        assert_eq!(name(Category::STORAGE).as_deref(), storage, "{heard:?}");
-    }
-    let forbidden = hear("don't pick the cup", Expected::Command);
-    let done = listener.hear(&forbidden);
-    assert!(
-        done.is_err() || done.is_ok_and(|u| u.commands.is_empty()),
-        "{forbidden:?}"
-    );
-    assert_eq!(hear("yes", Expected::Answer).best(), "yes");
-    for talk in ["the weather is lovely today", "my sister bought a new car"] {
-        let heard = hear(talk, Expected::Command);
-        assert_eq!(heard.best(), "", "{heard:?}");
-        assert!(listener.hear(&heard).unwrap().commands.is_empty());
-        assert_eq!(hear(talk, Expected::Answer).certain(RISK), None);
-    }
-}
-
-#[test]
-fn what_is_said_is_heard_and_what_is_forbidden_is_not_done() {
-    if installed() {
-        hears_what_is_said(Kind::Pocketsphinx);
-    }
-}
-
-#[test]
-fn moonshine_hears_what_is_said_and_takes_no_question_for_a_command() {
-    if moonshine::installed().is_none() || !installed() {
-        eprintln!("skipped: Moonshine is not installed where DEICTIC_MOONSHINE says");
-        return;
-    }
-    hears_what_is_said(Kind::Moonshine);
-    let (lexicon, pack) = (Lexicon::tabletop().unwrap(), Pack::built_in("en").unwrap());
-    let listener = Listener::new(&lexicon).unwrap();
-    let mut recogniser =
-        Recogniser::open(Kind::Moonshine, &lexicon, &pack, Path::new(MODEL)).unwrap();
-    let folder = TempDir::new().unwrap();
-    for text in [
-        "should I pick the cup",
-        "where is the cup",
-        "I have to pick up my daughter at five",
-        "never put the cup into the drawer",
-    ] {
-        let recording = samples(&speak(&folder, "said.wav", text)).unwrap();
-        let heard = recogniser.hear(&recording, Expected::Command).unwrap();
-        let understood = listener.hear(&heard);
-        assert!(
-            understood.is_err() || understood.is_ok_and(|u| u.commands.is_empty()),
-            "{heard:?}"
-        );
-    }
-    assert!(
-        recogniser
-            .hear(&[], Expected::Command)
-            .is_ok_and(|h| h.best().is_empty())
-    );
-}
+use voice::{installed, sox, speak};
 
 #[test]
 fn every_word_for_the_robot_itself_is_one() {
@@ -166,15 +58,6 @@ fn a_session_does_what_a_recording_says() {
     );
     let both = folder.path().join("both.wav");
     let pause = folder.path().join("pause.wav");
-    let sox = |arguments: &[&str]| {
-        assert!(
-            Command::new("sox")
-                .args(arguments)
-                .status()
-                .unwrap()
-                .success()
-        );
-    };
     let text = |path: &Path| path.to_str().unwrap().to_owned();
     sox(&[
         "-n",

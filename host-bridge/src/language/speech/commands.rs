@@ -74,7 +74,7 @@ impl Phrases {
         let directions = Rule::any_of(&self.directions).filter(|_| takes.direction);
         let categories = (0..Category::LIMIT).filter_map(Category::from_index);
         let categories = categories.filter(|c| takes.measures.contains(c.index()));
-        let amount = either(categories.map(|c| self.measures.rule(c)).flatten());
+        let amount = either(categories.filter_map(|c| self.measures.rule(c)));
         match (directions, amount) {
             (Some(way), Some(far)) => Some(Rule::Maybe(Box::new(Rule::Any(vec![
                 Rule::All(vec![way.clone(), Rule::Maybe(Box::new(far.clone()))]),

@@ -52,7 +52,7 @@ impl Measures {
             let whole = value > 0.0 && value.fract() == 0.0 && !article(&word);
             if whole && value < 10.0 {
                 measures.ones.push(word);
-            } else if whole && value < 100.0 && value >= 20.0 && value % 10.0 == 0.0 {
+            } else if whole && (20.0..100.0).contains(&value) && value % 10.0 == 0.0 {
                 measures.tens.push(word);
             } else {
                 measures.numbers.push(word);

@@ -46,9 +46,6 @@ pub struct Speech {
     /// Score what it adds that any sounds fit better than the commands do
     #[arg(long, value_delimiter = ',')]
     loose: Vec<f64>,
-    /// Score what it adds that a question was written
-    #[arg(long, value_delimiter = ',')]
-    question: Vec<f64>,
     /// Score how much of Moonshine's habits is taken away
     #[arg(long, value_delimiter = ',')]
     habit: Vec<f64>,
@@ -83,8 +80,6 @@ struct Score {
     lead: f64,
     /// What it adds that any sounds fit better.
     loose: f64,
-    /// What it adds that a question was written.
-    question: f64,
     /// How much of Moonshine's habits is taken away.
     habit: f64,
     /// What pocketsphinx's scores count.
@@ -152,18 +147,17 @@ impl Speech {
         }
         println!("heard by {recogniser}");
         println!(
-            "model  said      noise    scale  lead  loose  question  habit  second  power  right  wrong  asked  seconds"
+            "model  said      noise    scale  lead  loose  habit  second  power  right  wrong  asked  seconds"
         );
         for s in &scores {
             let noise = s.noise.map_or("none".to_owned(), |n| format!("{n} dB"));
             let said = if s.talk { "talk" } else { "commands" };
             println!(
-                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.2} {:>9.1} {:>6.1} {:>7.0} {:>6.2} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
+                "{:<6} {said:<9} {noise:<7} {:>6.1} {:>5.1} {:>6.2} {:>6.1} {:>7.0} {:>6.2} {:>6.1} {:>6.1} {:>6.1} {:>8.2}",
                 s.model,
                 s.scale,
                 s.lead,
                 s.loose,
-                s.question,
                 s.habit,
                 s.second,
                 s.power,
@@ -196,7 +190,6 @@ impl Speech {
         vary(&self.scale, |w, scale| Weights { scale, ..w });
         vary(&self.lead, |w, lead| Weights { lead, ..w });
         vary(&self.loose, |w, loose| Weights { loose, ..w });
-        vary(&self.question, |w, question| Weights { question, ..w });
         vary(&self.habit, |w, habit| Weights { habit, ..w });
         vary(&self.second, |w, second| Weights { second, ..w });
         vary(&self.power, |w, noise| Weights { noise, ..w });
@@ -289,7 +282,6 @@ impl Speech {
             scale: weights.scale,
             lead: weights.lead,
             loose: weights.loose,
-            question: weights.question,
             habit: weights.habit,
             second: weights.second,
             power: weights.noise,

@@ -20,7 +20,7 @@ use std::sync::{Mutex, PoisonError};
 use ort::environment::Environment;
 
 pub use self::scores::{Scores, Writing};
-pub use self::weights::{HABIT, LEAD, LOOSE, NOISE, QUESTION, SCALE, SECOND, Weights};
+pub use self::weights::{HABIT, LEAD, LOOSE, NOISE, SCALE, SECOND, Weights};
 
 use self::model::{Model, Written};
 use self::search::{Found, Search, anything};
