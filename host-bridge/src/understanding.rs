@@ -54,7 +54,7 @@ pub fn bearing(text: &str, utterance: &Utterance, lexicon: &Lexicon) -> Bearing 
 
 /// "No, thanks".
 fn begins_with_no(text: &str, lexicon: &Lexicon) -> bool {
-    let pack = Pack::of(lexicon.language()).ok();
+    let pack = Pack::of(lexicon).ok();
     let speech = pack.and_then(|pack| pack.speech);
     let first = text
         .split(|c: char| !c.is_alphanumeric())

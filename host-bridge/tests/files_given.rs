@@ -1,7 +1,7 @@
 //! Files that a person gives: what is wrong with them is told with the file, the line and what to do.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 const TABLETOP: &str = include_str!("../data/tabletop.toml");
 const TABLE: &str = include_str!("../data/scenes/table.toml");
@@ -15,13 +15,18 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// What a command that is refused says, in one line.
-fn refused(folder: &Path, arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_deictic"))
+fn deictic(folder: &Path, arguments: &[&str]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_deictic"));
+    program
         .args(arguments)
         .current_dir(folder)
         .output()
-        .unwrap();
+        .unwrap()
+}
+
+/// What a command that is refused says, in one line.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = deictic(folder, arguments);
     let (out, err) = (output.stdout, String::from_utf8(output.stderr).unwrap());
     assert!(
         !output.status.success(),
@@ -88,6 +93,81 @@ fn a_language_without_a_pack_is_shown_in_its_line() {
             &[&PICK[..], &["--vocabulary", "words.toml"]].concat(),
         );
         has(&error, &["words.toml:3:", why]);
+    }
+}
+
+/// German, as far as one sentence goes.
+const GERMAN: &str = r#"language = "de"
+fillers = ["den", "bitte"]
+[role]
+not = ["nicht"]
+question = ["wo"]
+"#;
+
+#[test]
+fn a_pack_beside_the_vocabulary_is_named_with_or_without_its_ending() {
+    let folder = folder("beside");
+    std::fs::write(folder.join("de.toml"), GERMAN).unwrap();
+    // One of the user's own comes before one that is built in.
+    std::fs::write(folder.join("cs.toml"), GERMAN).unwrap();
+    for language in ["de", "de.toml", "cs"] {
+        let text = TABLETOP
+            .replace("language = \"en\"", &format!("language = \"{language}\""))
+            .replace("words = [\"pick up\"", "words = [\"nimm\", \"pick up\"");
+        std::fs::write(folder.join("words.toml"), text).unwrap();
+        let done = deictic(
+            &folder,
+            &[
+                "decide",
+                "--vocabulary",
+                "words.toml",
+                "--say",
+                "nimm bitte den cup",
+            ],
+        );
+        assert_eq!(
+            String::from_utf8_lossy(&done.stdout),
+            "execute  pick cup\n",
+            "{language}"
+        );
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_pack_is_shown_in_the_packs_file() {
+    let folder = folder("wrong-pack");
+    let text = TABLETOP.replace("language = \"en\"", "language = \"de\"");
+    std::fs::write(folder.join("words.toml"), text).unwrap();
+    let unit = |line: &str| format!("{GERMAN}[[unit]]\n{line}\nwords = [\"cm\"]\n");
+    for (pack, what) in [
+        (
+            GERMAN.replace("not = [\"nicht\"]", ""),
+            ["de.toml", "no words for `not`", "not = "],
+        ),
+        (
+            GERMAN.replace("question", "questions"),
+            ["de.toml:5:", "unknown variant", "did you mean \"question\""],
+        ),
+        (
+            unit("category = \"distance\"\nfactor = 0"),
+            ["de.toml:8:", "a unit of 0", "0.01 for a centimetre"],
+        ),
+        (
+            unit("category = \"distanz\"\nfactor = 0.01"),
+            [
+                "de.toml:7:",
+                "no category \"distanz\"",
+                "did you mean \"distance\"",
+            ],
+        ),
+    ] {
+        std::fs::write(folder.join("de.toml"), pack).unwrap();
+        let error = refused(
+            &folder,
+            &[&PICK[..], &["--vocabulary", "words.toml"]].concat(),
+        );
+        has(&error, &what);
+        assert!(!error.contains("words.toml"), "{error}");
     }
 }
 

@@ -30,7 +30,7 @@ impl Words {
             speech,
             polite,
             ..
-        } = Pack::of(lexicon.language())?;
+        } = Pack::of(lexicon)?;
         let speech = speech.unwrap_or_default();
         let folded = |words: &[String]| words.iter().map(|word| fold(word)).collect::<Vec<_>>();
         Ok(Self {

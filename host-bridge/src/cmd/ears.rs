@@ -47,7 +47,7 @@ impl Speech {
         };
         listener.risk = self.speech_risk;
         let recogniser = || {
-            let pack = Pack::of(lexicon.language())?;
+            let pack = Pack::of(lexicon)?;
             let opened = Recogniser::open(self.recogniser, lexicon, &pack, &self.speech_model)?;
             printer.listens(opened.name());
             Ok(opened)

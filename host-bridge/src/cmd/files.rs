@@ -7,6 +7,7 @@ use miette::Result;
 
 use super::advice;
 use crate::diagnose::FileError;
+use crate::language::LanguageError;
 use crate::language::pack::Pack;
 use crate::scene::{SceneFile, Tabletop};
 use crate::vocabulary::{Lexicon, VocabularyProblem};
@@ -62,11 +63,22 @@ impl Files {
             },
             (read, ..) => read?,
         };
-        if let Err(error) = Pack::of(lexicon.language()) {
-            let text = std::fs::read_to_string(path).unwrap_or_default();
-            let (name, place) = (path.display().to_string(), lexicon.language_place());
-            return Err(FileError::new(&name, &text, place, error).into());
+        match Pack::of(&lexicon) {
+            Ok(_) => Ok(lexicon),
+            Err(LanguageError::BadPack {
+                file,
+                place,
+                problem,
+                ..
+            }) => {
+                let text = std::fs::read_to_string(&file).unwrap_or_default();
+                Err(FileError::new(&file, &text, place, problem).into())
+            }
+            Err(error) => {
+                let text = std::fs::read_to_string(path).unwrap_or_default();
+                let (name, place) = (path.display().to_string(), lexicon.language_place());
+                Err(FileError::new(&name, &text, place, error).into())
+            }
         }
-        Ok(lexicon)
     }
 }

@@ -2,6 +2,7 @@
 
 use deictic_core::sentence::SentenceError;
 
+use super::pack::PackProblem;
 use crate::diagnose::Problem;
 
 /// The longest text that is taken for one utterance, in bytes: some eight minutes of speech.
@@ -103,10 +104,16 @@ pub enum LanguageError {
         language: String,
     },
     /// A language pack that cannot be read.
-    #[error("the language pack is not sound: {why}")]
+    #[error("the language pack \"{file}\" is not sound: {}{problem}", at_line(*line))]
     BadPack {
-        /// What is wrong, with its line.
-        why: String,
+        /// Its file.
+        file: String,
+        /// The line that it is about, from 1, if it is about one.
+        line: Option<usize>,
+        /// The bytes of the file that it is about.
+        place: Option<std::ops::Range<usize>>,
+        /// What is wrong.
+        problem: PackProblem,
     },
     /// The core's sentence cannot hold it.
     #[error("the sentence does not fit: {0:?}")]
@@ -140,10 +147,11 @@ impl LanguageError {
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
             Self::Unclear { .. } | Self::OtherCommand { .. } => "say it again".into(),
             Self::NoPack { .. } => {
-                "use language = \"en\", \"cs\" or the name of a pack's file in the vocabulary"
+                "use language = \"en\", \"cs\" or the name of a pack's file beside the vocabulary: \"de\" for \
+                 de.toml"
                     .into()
             }
-            Self::BadPack { .. } => "mend the file at that line".into(),
+            Self::BadPack { problem, .. } => problem.remedy(),
             Self::Sentence(_) => "say it in two sentences".into(),
         }
     }
@@ -153,6 +161,11 @@ impl Problem for LanguageError {
     fn remedy(&self) -> String {
         self.remedy()
     }
+}
+
+/// "line 2: ", or nothing.
+fn at_line(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!("line {line}: "))
 }
 
 /// "an angle", "a distance".

@@ -15,7 +15,7 @@ impl Table {
                 entry.spoken().for_each(|words| self.add(&words, name));
                 let known = pack.option.iter();
                 known
-                    .filter(|o| o.category == category.name && o.name == entry.name)
+                    .filter(|o| *o.category.as_ref() == category.name && o.name == entry.name)
                     .flat_map(|o| &o.words)
                     .for_each(|words| self.add(words, name));
             }
@@ -48,13 +48,13 @@ impl Table {
             self.add(word, Meaning::Number(value));
         }
         for unit in &pack.unit {
-            let kind = self.kind(lexicon, &unit.category);
+            let kind = self.kind(lexicon, unit.category.as_ref());
             unit.words
                 .iter()
-                .for_each(|w| self.add(w, Meaning::Unit(kind, unit.factor)));
+                .for_each(|w| self.add(w, Meaning::Unit(kind, *unit.factor.as_ref())));
         }
         for quantity in &pack.quantity {
-            let kind = self.kind(lexicon, &quantity.category);
+            let kind = self.kind(lexicon, quantity.category.as_ref());
             let meaning = Meaning::Quantity(kind, quantity.value);
             quantity.words.iter().for_each(|w| self.add(w, meaning));
         }

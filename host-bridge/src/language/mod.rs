@@ -119,7 +119,7 @@ impl<'a> Listener<'a> {
     /// # Errors
     /// As [`Pack::of`].
     pub fn new(lexicon: &'a Lexicon) -> Result<Self, LanguageError> {
-        Ok(Self::with_pack(lexicon, Pack::of(lexicon.language())?))
+        Ok(Self::with_pack(lexicon, Pack::of(lexicon)?))
     }
 
     /// With another pack.

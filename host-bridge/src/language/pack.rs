@@ -2,6 +2,7 @@
 //!
 //! English (`en`) and Czech (`cs`) are built in; [`Pack::read`] takes any other.
 
+mod check;
 mod parts;
 
 use std::collections::BTreeMap;
@@ -9,6 +10,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::error::LanguageError;
+use crate::vocabulary::Lexicon;
+pub use check::PackProblem;
 pub use parts::{Answer, Endings, Joints, OptionWords, Quantity, Speech, Tags, Unit, Verb};
 
 /// What a grammar word does.
@@ -129,42 +132,54 @@ impl Pack {
     /// [`LanguageError::NoPack`] for a language that is not built in.
     pub fn built_in(language: &str) -> Result<Self, LanguageError> {
         match language {
-            "en" => Self::read(include_str!("../../data/language/en.toml")),
-            "cs" => Self::read(include_str!("../../data/language/cs.toml")),
+            "en" => Self::read("en.toml", include_str!("../../data/language/en.toml")),
+            "cs" => Self::read("cs.toml", include_str!("../../data/language/cs.toml")),
             _ => Err(LanguageError::NoPack {
                 language: language.to_owned(),
             }),
         }
     }
 
-    /// The pack of a vocabulary's `language`: a built-in one, or a file that ends in `.toml`.
+    /// The pack of a vocabulary's language: a built-in one, or a file that ends in `.toml`.
     ///
     /// # Errors
     /// [`LanguageError::NoPack`], [`LanguageError::BadPack`].
-    pub fn of(language: &str) -> Result<Self, LanguageError> {
+    pub fn of(lexicon: &Lexicon) -> Result<Self, LanguageError> {
+        let language = lexicon.language();
         if !language.ends_with(".toml") {
             return Self::built_in(language);
         }
-        let text = std::fs::read_to_string(language).map_err(|e| LanguageError::BadPack {
-            why: format!("{language}: {e}"),
+        let text = std::fs::read_to_string(language).map_err(|e| match e.kind() {
+            std::io::ErrorKind::NotFound => LanguageError::NoPack {
+                language: language.to_owned(),
+            },
+            _ => bad(language, "", (None, PackProblem::Unreadable(e.to_string()))),
         })?;
-        Self::read(&text)
+        let pack = Self::read(language, &text)?;
+        pack.suits(lexicon)
+            .map_err(|wrong| bad(language, &text, wrong))?;
+        Ok(pack)
     }
 
-    /// A pack from its TOML text.
+    /// A pack from the TOML text of a file.
     ///
     /// # Errors
     /// [`LanguageError::BadPack`] with the line.
-    pub fn read(toml: &str) -> Result<Self, LanguageError> {
-        let bad = |why: String| LanguageError::BadPack { why };
-        let pack: Self = toml::from_str(toml).map_err(|e| bad(e.to_string()))?;
-        let values = pack.quantity.iter().map(|q| q.value);
-        let mut values = values.chain(pack.numbers.values().copied());
-        let sound = values.all(f32::is_finite) && pack.unit.iter().all(|u| u.factor.is_finite());
-        if !sound {
-            return Err(bad("a number that is not finite".to_owned()));
-        }
+    pub fn read(file: &str, toml: &str) -> Result<Self, LanguageError> {
+        let shape = |e: toml::de::Error| (e.span(), PackProblem::Syntax(e.message().to_owned()));
+        let pack: Self = toml::from_str(toml).map_err(|e| bad(file, toml, shape(e)))?;
+        pack.check().map_err(|wrong| bad(file, toml, wrong))?;
         Ok(pack)
+    }
+}
+
+fn bad(file: &str, text: &str, (place, problem): check::Wrong) -> LanguageError {
+    let before = place.as_ref().and_then(|place| text.get(..place.start));
+    LanguageError::BadPack {
+        file: file.to_owned(),
+        line: before.map(|before| before.matches('\n').count() + 1),
+        place,
+        problem,
     }
 }
 
@@ -181,11 +196,12 @@ mod tests {
 
     #[test]
     fn a_bad_pack_is_refused_with_its_line() {
-        let Err(LanguageError::BadPack { why }) = Pack::read("language = \"x\"\nfillers = 3")
-        else {
-            panic!("it was taken");
-        };
-        assert!(why.contains("line 2"), "{why}");
+        let error = Pack::read("x.toml", "language = \"x\"\nfillers = 3").unwrap_err();
+        let shown = error.to_string();
+        assert!(
+            shown.contains("x.toml") && shown.contains("line 2"),
+            "{shown}"
+        );
         assert_eq!(
             Pack::built_in("tlh"),
             Err(LanguageError::NoPack {

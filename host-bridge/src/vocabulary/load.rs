@@ -27,9 +27,14 @@ impl Lexicon {
         let text = std::fs::read_to_string(path)
             .map_err(|e| FileError::new(&name, "", None, Problem::Unreadable(e)))?;
         let mut lexicon = Self::parse(&name, &text)?;
-        // A pack of the user's own is beside the vocabulary.
-        if let (true, Some(folder)) = (lexicon.language.ends_with(".toml"), path.parent()) {
-            lexicon.language = folder.join(&lexicon.language).display().to_string();
+        // A pack of the user's own is beside the vocabulary, and comes before one that is built in.
+        if let Some(folder) = path.parent() {
+            let stem = lexicon.language.strip_suffix(".toml");
+            let beside = stem.unwrap_or(&lexicon.language);
+            let beside = folder.join(format!("{beside}.toml"));
+            if stem.is_some() || beside.is_file() {
+                lexicon.language = beside.display().to_string();
+            }
         }
         Ok(lexicon)
     }

@@ -76,7 +76,7 @@ impl Lexicon {
         &self.name
     }
 
-    /// Which language pack's grammar words apply, for example `en`.
+    /// Which language pack's grammar words apply: one that is built in, for example `en`, or a pack's file.
     #[must_use]
     pub fn language(&self) -> &str {
         &self.language

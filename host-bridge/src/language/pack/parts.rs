@@ -1,15 +1,16 @@
 //! The tables of a language pack, apart from the roles of grammar words.
 
 use serde::Deserialize;
+use toml::Spanned;
 
 /// A word for a number with a unit.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unit {
     /// Name of the category of its quantities.
-    pub category: String,
+    pub category: Spanned<String>,
     /// How much one is: metres, radians or pieces.
-    pub factor: f64,
+    pub factor: Spanned<f64>,
     /// What people call it.
     pub words: Vec<String>,
 }
@@ -19,7 +20,7 @@ pub struct Unit {
 #[serde(deny_unknown_fields)]
 pub struct Quantity {
     /// Name of its category.
-    pub category: String,
+    pub category: Spanned<String>,
     /// How much it is: metres, radians or pieces.
     pub value: f32,
     /// What people call it.
@@ -31,7 +32,7 @@ pub struct Quantity {
 #[serde(deny_unknown_fields)]
 pub struct OptionWords {
     /// Name of its category.
-    pub category: String,
+    pub category: Spanned<String>,
     /// The option's name in the vocabulary.
     pub name: String,
     /// What people call it.
@@ -145,5 +146,6 @@ pub struct Answer {
     /// It is not so, or none of them.
     pub no: Vec<String>,
     /// The person does not know either, or does not care.
+    #[serde(default)]
     pub unsure: Vec<String>,
 }
