@@ -58,17 +58,21 @@ impl Measures {
                 measures.numbers.push(word);
             }
         }
-        let mut names: Vec<_> = pack.unit.iter().map(|u| u.category.as_str()).collect();
-        names.extend(pack.quantity.iter().map(|q| q.category.as_str()));
+        let mut names: Vec<_> = pack
+            .unit
+            .iter()
+            .map(|u| u.category.as_ref().as_str())
+            .collect();
+        names.extend(pack.quantity.iter().map(|q| q.category.as_ref().as_str()));
         names.sort_unstable();
         names.dedup();
         for name in names {
             let Some(category) = lexicon.category(name) else {
                 continue;
             };
-            let of_units = pack.unit.iter().filter(|u| u.category == name);
+            let of_units = pack.unit.iter().filter(|u| u.category.as_ref() == name);
             let of_units: Vec<_> = of_units.flat_map(|u| &u.words).collect();
-            let of_words = pack.quantity.iter().filter(|q| q.category == name);
+            let of_words = pack.quantity.iter().filter(|q| q.category.as_ref() == name);
             let of_words: Vec<_> = of_words.flat_map(|q| &q.words).collect();
             let those = |list: &[String], of: &[&String]| -> Vec<String> {
                 list.iter().filter(|w| of.contains(w)).cloned().collect()
