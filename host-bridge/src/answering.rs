@@ -46,10 +46,27 @@ pub fn reply(
     if words.unsure.contains(&plain) {
         return Ok(Reply::Unclear);
     }
+    if words.is_none(&plain) {
+        return Ok(Reply::Neither);
+    }
     if question.kind == Kind::Confirm
-        && let Some(likelihoods) = words.yes_or_no(&said)
+        && let Some([yes, no]) = words.yes_or_no(&said)
     {
-        return Ok(Reply::YesOrNo(likelihoods));
+        let Some(more) = words.more(&plain) else {
+            return Ok(Reply::YesOrNo([yes, no]));
+        };
+        // What is added may be the correction: "yes, the cup". A yes that goes on otherwise is none: "yes, but not now".
+        return Ok(match reply(more, question, listener, lexicon) {
+            Ok(Reply::Answer(answer)) => Reply::Answer(answer),
+            Ok(Reply::Command(Understood::Commands(commands))) => {
+                Reply::Command(Understood::Commands(commands))
+            }
+            Ok(Reply::Neither) => Reply::Neither,
+            // "No, yes."
+            Ok(Reply::YesOrNo([y, n])) if (y > n) != (yes > no) => Reply::Unclear,
+            _ if no > yes => Reply::YesOrNo([yes, no]),
+            _ => Reply::Unclear,
+        });
     }
     if words.no.contains(&plain) {
         return Ok(Reply::Neither);

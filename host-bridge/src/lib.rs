@@ -8,6 +8,7 @@ pub mod deciding;
 pub mod diagnose;
 pub mod draw;
 pub mod explain;
+pub mod halting;
 pub mod hand;
 pub mod language;
 pub mod link;

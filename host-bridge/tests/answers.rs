@@ -82,6 +82,46 @@ fn yep_and_nope_answer_a_yes_or_no() {
 }
 
 #[test]
+fn a_yes_with_more_behind_it_is_a_clear_yes_only_when_that_says_nothing() {
+    let joint = ["--model", "joint"];
+    for yes in [
+        "yes please",
+        "yes, thank you",
+        "yes yes",
+        "Yes, that's right.",
+        "yess please",
+    ] {
+        let printed = session(&[TORN, yes], &joint);
+        assert!(printed.contains("decided  pick cup"), "{yes}: {printed}");
+    }
+    for other in [
+        "yes but not now",
+        "yes, tomorrow",
+        "yes, the cube",
+        "no, the cube",
+        "yes no",
+    ] {
+        let printed = session(&[TORN, other], &joint);
+        assert!(!printed.contains("decided  pick cup"), "{other}: {printed}");
+        let corrects = other.contains("cube");
+        assert_eq!(
+            printed.contains("decided  pick cube"),
+            corrects,
+            "{other}: {printed}"
+        );
+    }
+}
+
+#[test]
+fn none_of_it_withdraws_the_whole_intent() {
+    for none in ["neither", "none of them", "No, thanks", "none, please"] {
+        let printed = session(&[TORN, none], &["--model", "joint"]);
+        assert!(printed.contains("withdrawn"), "{none}: {printed}");
+        assert!(!printed.contains("decided  pick"), "{none}: {printed}");
+    }
+}
+
+#[test]
 fn a_command_instead_of_an_answer_is_said_to_be_one() {
     let printed = session(&[TORN, "push the can"], &[]);
     assert!(

@@ -15,6 +15,7 @@ pub(super) struct Words {
     pub yes: Vec<String>,
     pub no: Vec<String>,
     pub unsure: Vec<String>,
+    none: Vec<String>,
     polite: Vec<String>,
 }
 
@@ -38,6 +39,7 @@ impl Words {
             yes: folded(&[speech.yes, answer.yes].concat()),
             no: folded(&[speech.no, answer.no].concat()),
             unsure: folded(&answer.unsure),
+            none: folded(&answer.none),
             polite: folded(&polite),
         })
     }
@@ -50,6 +52,35 @@ impl Words {
         words.collect::<Vec<_>>().join(" ")
     }
 
+    /// Whether a text says that none of what was asked about is meant, whatever it adds.
+    pub fn is_none(&self, plain: &str) -> bool {
+        self.none.iter().any(|none| after(plain, none).is_some())
+    }
+
+    /// What a plain text says after the yes or the no that it begins with; `None` of one that says no more.
+    pub fn more<'a>(&self, plain: &'a str) -> Option<&'a str> {
+        let mut rest = plain;
+        let mut lists = [&self.yes, &self.no].into_iter();
+        let words = lists.find(|words| words.iter().any(|word| after(plain, word).is_some()));
+        while let Some(words) = words {
+            let known = words.iter().filter_map(|word| after(rest, word));
+            // The longest of them: "yes, that is right".
+            let Some(shorter) = known.min_by_key(|rest| rest.len()) else {
+                break;
+            };
+            rest = shorter;
+            if rest.is_empty() {
+                return None;
+            }
+        }
+        if rest.len() < plain.len() {
+            return Some(rest);
+        }
+        // A first word that only sounds like one.
+        let (_, rest) = plain.split_once(' ')?;
+        Some(rest)
+    }
+
     /// How much a text sounds like a yes and like a no; `None` when like neither. Of several words the first
     /// says it: "yes, please".
     pub fn yes_or_no(&self, said: &str) -> Option<[f32; 2]> {
@@ -57,15 +88,11 @@ impl Words {
             .split(|c: char| !c.is_alphanumeric())
             .find(|w| !w.is_empty())?;
         let plain = self.plain(said);
-        let heard = [self.ear.listen(&fold(said)), self.ear.listen(&fold(first))];
+        let heard = self.ear.listen(&fold(first));
         // Against the short lists: each further word is one more to be mistaken for.
         let [yes, no] = [&self.yes, &self.no].map(|words| {
             let sounds = words.iter().take(SHORT).map(|word| self.ear.listen(word));
-            let alike = sounds.flat_map(|sound| {
-                heard
-                    .each_ref()
-                    .map(|heard| self.ear.likeness(heard, &sound))
-            });
+            let alike = sounds.map(|sound| self.ear.likeness(&heard, &sound));
             if words.contains(&plain) {
                 1.0
             } else {
@@ -76,4 +103,10 @@ impl Words {
         let likelihood = |likeness: f64| likeness.powi(4) as f32;
         (yes.max(no) >= ALIKE).then_some([likelihood(yes), likelihood(no)])
     }
+}
+
+/// What a text says after the words that it begins with.
+fn after<'a>(text: &'a str, words: &str) -> Option<&'a str> {
+    let rest = text.strip_prefix(words)?;
+    (rest.is_empty() || rest.starts_with(' ')).then(|| rest.trim_start())
 }

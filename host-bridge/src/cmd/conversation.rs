@@ -81,6 +81,10 @@ impl<'a> Conversation<'a> {
 
     /// Tells the robot directly.
     fn order(&mut self, session: &mut Session<'_>, order: Order) {
+        if order == Order::Hold && !session.is_moving() {
+            // What waits would begin as soon as nothing else is pending.
+            self.drop_waiting();
+        }
         match session.order(order) {
             Ok(()) => self.printer.ordered(order),
             Err(refusal) => {

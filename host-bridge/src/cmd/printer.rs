@@ -125,7 +125,7 @@ impl Printer {
         );
         self.line(
             "",
-            "cancel                          forget what was typed and not begun",
+            "cancel                          stand still, and forget what was typed and not begun",
         );
         self.line("", "table, help, quit");
     }

@@ -92,6 +92,9 @@ pub struct Pack {
     /// Words that make a request of a question.
     #[serde(default)]
     pub polite: Vec<String>,
+    /// What has a moving arm stand still, whatever the vocabulary calls its stop.
+    #[serde(default)]
+    pub halt: Vec<String>,
     /// All other grammar words.
     pub role: BTreeMap<Role, Vec<String>>,
     /// Ends of sentences that say nothing.

@@ -50,10 +50,12 @@ impl Session<'_> {
     /// Tells the robot directly; what it does follows as happenings.
     ///
     /// # Errors
-    /// [`Refusal`]; nothing moves then. What is held goes on only on the table that it was held on.
+    /// [`Refusal`]; nothing moves then. What is held goes on only on the table that it was held on. What a robot that stands
+    /// was about to be told when it is to hold is not begun at all.
     pub fn order(&mut self, order: Order) -> Result<(), Refusal> {
         let now = self.now();
         match order {
+            Order::Hold if !self.is_moving() && self.is_pending() => self.withhold(),
             Order::Hold => self.robot.hold(now)?,
             Order::Resume => {
                 if self.doing.as_ref().is_some_and(|doing| doing.relaid) {
@@ -67,6 +69,18 @@ impl Session<'_> {
         }
         self.hear_robot();
         Ok(())
+    }
+
+    /// Whether something is still to be decided on, or to be said to the unit.
+    fn is_pending(&self) -> bool {
+        self.due.is_some() || !self.queue.is_empty()
+    }
+
+    /// Keeps what is pending from beginning. There is nothing to go on with then.
+    fn withhold(&mut self) {
+        self.drop_queue();
+        // A unit that cannot be told is lost, and decides nothing.
+        let _ = self.forbid();
     }
 
     fn go_home(&mut self) -> Result<(), Refusal> {

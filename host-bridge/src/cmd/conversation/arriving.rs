@@ -8,6 +8,7 @@ use deictic_core::sentence::GESTURE;
 
 use super::input::{Input, Waiting, parts};
 use super::{Conversation, Ending, likeliest_order};
+use crate::halting::{Halting, is_likely_stop};
 use crate::language::{Spoken, text_of};
 use crate::session::{Order, Session};
 use crate::understanding::{Bearing, bearing, mentions_stop};
@@ -40,6 +41,9 @@ impl Conversation<'_> {
                 .nothing(&format!("{} typed lines are forgotten", self.waiting.len()));
             self.waiting.clear();
             session.cancel();
+            if !session.is_idle() {
+                self.refuse(session, text);
+            }
         } else if session.is_moving() && matches!(text, "quit" | "exit") {
             self.drop_waiting();
             self.printer.stopped(text);
@@ -47,9 +51,50 @@ impl Conversation<'_> {
             self.quit();
         } else if session.is_moving() && matches!(text, "table" | "help" | "?") {
             self.typed(session, text);
-        } else if !text.is_empty() {
+        } else if !text.is_empty() && !self.stands_still(session, text) {
             self.arrived(session, text);
         }
+    }
+
+    /// Stands still at once, and drops what waits, when a text says so in any words, well or badly written, while
+    /// something is going on.
+    fn stands_still(&mut self, session: &mut Session<'_>, text: &str) -> bool {
+        let (said, shown) = parts(text);
+        if said.is_empty() || !self.is_going_on(session) {
+            return false;
+        }
+        let lexicon = session.lexicon();
+        let understood = self.listener.understand(said);
+        let halting = Halting::of(lexicon);
+        let halts = match &understood {
+            Ok(utterance) if is_likely_stop(utterance, lexicon) => {
+                self.drop_waiting();
+                session.stop();
+                self.typed(session, text);
+                return true;
+            }
+            Ok(utterance) => {
+                let bearing = bearing(said, utterance, lexicon);
+                // What refuses or corrects has the arm stand still as well, and says more than that.
+                !matches!(bearing, Bearing::Refuses | Bearing::Corrects) && halting.is_in(said)
+            }
+            Err(_) => halting.is_in(said) || halting.is_like(said),
+        };
+        if halts {
+            let seen = Some(shown).filter(|shown| !shown.is_empty());
+            let commands = understood.is_ok_and(|utterance| !utterance.commands.is_empty());
+            self.refuse(session, said);
+            match commands {
+                true => self.wait(Input::Line(text.to_owned())),
+                false => self.printer.heard(Some(said), seen),
+            }
+        }
+        halts
+    }
+
+    /// Whether the robot moves, or what was said or shown is still to be decided on.
+    fn is_going_on(&self, session: &Session<'_>) -> bool {
+        session.question().is_none() && !(session.is_idle() && self.waiting.is_empty())
     }
 
     fn arrived(&mut self, session: &mut Session<'_>, text: &str) {
@@ -108,17 +153,24 @@ impl Conversation<'_> {
 
     /// Takes an utterance that was heard. One that may have been stop or no makes the robot stand still at once.
     pub fn spoken(&mut self, session: &mut Session<'_>, spoken: Spoken) {
-        let lexicon = session.lexicon();
-        let alternatives = spoken.alternatives.iter();
-        let stop = alternatives.filter(|(text, _)| mentions_stop(text, lexicon));
-        if stop.map(|(_, share)| share).sum::<f64>() > MAY_BE_STOP {
+        let (lexicon, listener) = (session.lexicon(), self.listener);
+        let enough = self.enough(session);
+        let going_on = self.is_going_on(session);
+        let stops = |text: &str| {
+            let likely = || {
+                let utterance = listener.understand(text);
+                utterance.is_ok_and(|utterance| is_likely_stop(&utterance, lexicon))
+            };
+            mentions_stop(text, lexicon) || (going_on && likely())
+        };
+        if share_of(&spoken, stops) > enough {
             self.drop_waiting();
             session.stop();
         }
         let (order, share) = likeliest_order(&spoken);
         // Standing still harms nobody, so what may have been hold is done at once.
         let enough = match order {
-            Some(Order::Hold) => MAY_BE_STOP,
+            Some(Order::Hold) => enough,
             _ => 1.0 - self.listener.risk,
         };
         match order {
@@ -156,18 +208,22 @@ impl Conversation<'_> {
     /// Takes an utterance that is no stop, and perhaps an order.
     fn uttered(&mut self, session: &mut Session<'_>, spoken: Spoken, ordered: bool) {
         let (listener, lexicon) = (self.listener, session.lexicon());
+        let halting = match self.is_going_on(session) {
+            true => Halting::of(lexicon),
+            false => Halting::default(),
+        };
         let refuses = |text: &str| {
             let utterance = listener.understand(text).ok();
             let bearing = utterance.map(|utterance| bearing(text, &utterance, lexicon));
-            matches!(bearing, Some(Bearing::Refuses | Bearing::Corrects))
+            matches!(bearing, Some(Bearing::Refuses | Bearing::Corrects)) || halting.is_in(text)
         };
-        let alternatives = spoken.alternatives.iter();
-        let refusing = alternatives.filter(|(text, _)| !text.is_empty() && refuses(text));
-        let refused = refusing.map(|(_, share)| share).sum::<f64>() > MAY_BE_STOP;
+        let refused = share_of(&spoken, refuses) > self.enough(session);
         if !refused && (ordered || spoken.best().is_empty()) {
             return self.wait(Input::Spoken(spoken));
         }
-        let text = spoken.best().to_owned();
+        // What was heard first may be that somebody talked.
+        let mut texts = spoken.alternatives.iter().map(|(text, _)| text.as_str());
+        let text = texts.find(|text| !text.is_empty()).unwrap_or("").to_owned();
         let aside = self.may_be_aside(session);
         match listener.hear(&spoken) {
             Ok(utterance) if !utterance.commands.is_empty() => {
@@ -204,6 +260,14 @@ impl Conversation<'_> {
         }
     }
 
+    /// A share of what may have been heard that is enough to stand still: while something is going on, whatever is above the risk.
+    fn enough(&self, session: &Session<'_>) -> f64 {
+        match self.is_going_on(session) {
+            true => self.listener.risk.min(MAY_BE_STOP),
+            false => MAY_BE_STOP,
+        }
+    }
+
     /// Whether a question or the like can concern what is shown: not when a command was said before it that waits for
     /// that, or for its turn.
     fn may_be_aside(&self, session: &Session<'_>) -> bool {
@@ -219,4 +283,11 @@ impl Conversation<'_> {
     fn hold(&mut self, input: Input) {
         self.waiting.push_back(Waiting::held(input));
     }
+}
+
+/// How likely it is that something was said which is such.
+fn share_of(spoken: &Spoken, is_such: impl Fn(&str) -> bool) -> f64 {
+    let alternatives = spoken.alternatives.iter();
+    let such = alternatives.filter(|(text, _)| !text.is_empty() && is_such(text));
+    such.map(|(_, share)| share).sum()
 }

@@ -145,6 +145,9 @@ pub struct Answer {
     pub yes: Vec<String>,
     /// It is not so, or none of them.
     pub no: Vec<String>,
+    /// None of what was asked about is meant, of whatever was asked.
+    #[serde(default)]
+    pub none: Vec<String>,
     /// The person does not know either, or does not care.
     #[serde(default)]
     pub unsure: Vec<String>,
