@@ -172,6 +172,46 @@ fn what_is_wrong_with_a_pack_is_shown_in_the_packs_file() {
 }
 
 #[test]
+fn names_that_nobody_could_say_and_motions_that_no_robot_has_are_refused() {
+    let folder = folder("names");
+    let of = |from: &str, to: &str| TABLETOP.replacen(from, to, 1);
+    for (vocabulary, what) in [
+        (
+            of("\"take\"", "\"take\", \"not\""),
+            ["\"not\" cannot be a name", "forbids"],
+        ),
+        (
+            of("\"take\"", "\"take\", \"Please\""),
+            ["\"please\" cannot be a name", "is polite"],
+        ),
+        (
+            of("\"take\"", "\"take\", \"5\""),
+            ["\"5\" cannot be a name", "is a number"],
+        ),
+        (
+            of("\"take\"", "\"take\", \"seven\""),
+            ["\"seven\" cannot be a name", "is a number"],
+        ),
+        (
+            of("\"take\"", "\"take\", \"Cube\""),
+            [
+                "stands for the action \"pick\" and for \"cube\"",
+                "take it out",
+            ],
+        ),
+        (
+            of("name = \"pick\"\n", "name = \"pick\"\nmotion = \"pikc\"\n"),
+            ["no motion \"pikc\"", "did you mean \"pick\""],
+        ),
+    ] {
+        std::fs::write(folder.join("words.toml"), vocabulary).unwrap();
+        let arguments = [&PICK[..], &["--vocabulary", "words.toml"]].concat();
+        let error = refused(&folder, &arguments);
+        has(&error, &[&what[..], &["words.toml:"]].concat());
+    }
+}
+
+#[test]
 fn a_thing_that_is_there_twice_is_named() {
     let folder = folder("twice");
     let (_, things) = TABLE

@@ -135,8 +135,12 @@ fn what_is_wrong_is_found_at_its_place() {
     assert!(matches!(p, P::Twice { .. }) && place == "\"a\"");
     let (p, place) = refused(&act("[[parameter]]\ncategory = \"object\""));
     assert!(matches!(p, P::NotAParameter(_)) && place == "\"object\"");
-    let (p, _) = refused(&act("[[object]]\nname = \"a b\""));
-    assert!(matches!(p, P::BadName(_)));
+    let (p, place) = refused(&act("[[object]]\nname = \"a b\""));
+    assert!(matches!(p, P::BadName(_)) && place == "\"a b\"");
+    let (p, place) = refused(&act(
+        "words = [\"box up\"]\n[[storage]]\nname = \"b\"\nwords = [\"Box-up\"]",
+    ));
+    assert!(matches!(p, P::DoneAndNamed { .. }) && place == "\"Box-up\"");
     let (p, place) = refused(&act("colour = 1"));
     assert!(matches!(p, P::Syntax(_)) && place == "colour");
     let (p, _) = refused("name = ");

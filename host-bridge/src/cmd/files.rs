@@ -9,6 +9,7 @@ use super::advice;
 use crate::diagnose::FileError;
 use crate::language::LanguageError;
 use crate::language::pack::Pack;
+use crate::robot::Skill;
 use crate::scene::{SceneFile, Tabletop};
 use crate::vocabulary::{Lexicon, VocabularyProblem};
 
@@ -63,8 +64,11 @@ impl Files {
             },
             (read, ..) => read?,
         };
-        match Pack::of(&lexicon) {
-            Ok(_) => Ok(lexicon),
+        let (name, text) = (path.display().to_string(), || {
+            std::fs::read_to_string(path).unwrap_or_default()
+        });
+        let pack = match Pack::of(&lexicon) {
+            Ok(pack) => pack,
             Err(LanguageError::BadPack {
                 file,
                 place,
@@ -72,12 +76,17 @@ impl Files {
                 ..
             }) => {
                 let text = std::fs::read_to_string(&file).unwrap_or_default();
-                Err(FileError::new(&file, &text, place, problem).into())
+                return Err(FileError::new(&file, &text, place, problem).into());
             }
             Err(error) => {
-                let text = std::fs::read_to_string(path).unwrap_or_default();
-                let (name, place) = (path.display().to_string(), lexicon.language_place());
-                Err(FileError::new(&name, &text, place, error).into())
+                let place = lexicon.language_place();
+                return Err(FileError::new(&name, &text(), place, error).into());
+            }
+        };
+        match pack.names(&lexicon).and_then(|()| Skill::check(&lexicon)) {
+            Ok(()) => Ok(lexicon),
+            Err((place, problem)) => {
+                Err(FileError::new(&name, &text(), Some(place), problem).into())
             }
         }
     }

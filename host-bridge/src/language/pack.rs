@@ -3,6 +3,7 @@
 //! English (`en`) and Czech (`cs`) are built in; [`Pack::read`] takes any other.
 
 mod check;
+mod clash;
 mod parts;
 
 use std::collections::BTreeMap;

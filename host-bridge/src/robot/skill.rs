@@ -1,9 +1,12 @@
 //! The motions a robot knows.
 
+use std::ops::Range;
+
+use deictic_core::category::Category;
 use deictic_core::large::Intent;
 
 use super::Refusal;
-use crate::vocabulary::Lexicon;
+use crate::vocabulary::{Lexicon, VocabularyProblem};
 
 /// A motion. An action of the vocabulary stands for one by its `motion`, or by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +65,26 @@ impl Skill {
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|skill| skill.name() == name)
+    }
+
+    /// Whether every motion that a vocabulary names is one. An action without one of this name can be
+    /// understood and is not moved for.
+    ///
+    /// # Errors
+    /// The place of the first that is none.
+    pub fn check(lexicon: &Lexicon) -> Result<(), (Range<usize>, VocabularyProblem)> {
+        let actions = (0..=u8::MAX).zip(lexicon.entries(Category::ACTION));
+        for (action, _) in actions {
+            let motion = lexicon.motion(action).unwrap_or_default();
+            if let (None, Some(place)) = (Self::named(motion), lexicon.motion_place(action)) {
+                let problem = VocabularyProblem::UnknownMotion {
+                    name: motion.to_owned(),
+                    known: Self::ALL.map(|skill| skill.name().to_owned()).to_vec(),
+                };
+                return Err((place, problem));
+            }
+        }
+        Ok(())
     }
 
     /// The motion that an intent's action stands for.

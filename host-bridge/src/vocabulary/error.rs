@@ -44,6 +44,32 @@ pub enum VocabularyProblem {
         /// The other.
         second: String,
     },
+    /// One word stands for an action and for a thing.
+    #[error("\"{word}\" stands for the action \"{action}\" and for \"{thing}\"")]
+    DoneAndNamed {
+        /// The word.
+        word: String,
+        /// The action.
+        action: String,
+        /// The object or storage.
+        thing: String,
+    },
+    /// A word of the language's grammar is a name.
+    #[error("\"{word}\" cannot be a name: it {does}")]
+    GrammarWord {
+        /// The word.
+        word: String,
+        /// What it does in a sentence.
+        does: &'static str,
+    },
+    /// A motion that the robot does not have.
+    #[error("the robot has no motion \"{name}\"")]
+    UnknownMotion {
+        /// What was written.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+    },
     /// A gesture that is spelt almost as one that hands are read for.
     #[error("no gesture \"{name}\" is known")]
     UnknownGesture {
@@ -158,6 +184,15 @@ impl Problem for VocabularyProblem {
             Self::Shared { second, .. } => {
                 format!("keep it where it belongs, and take it out of the other or give \"{second}\" another")
             }
+            Self::DoneAndNamed { action, thing, .. } => {
+                format!("take it out of \"{action}\" or out of \"{thing}\", as nobody could tell which is meant")
+            }
+            Self::GrammarWord { .. } => "take another word that people say for it".into(),
+            Self::UnknownMotion { name, known } => format!(
+                "{}the motions are {}; without `motion` the action's own name is taken",
+                did_you_mean(name, known.iter().map(String::as_str)),
+                quoted(known.iter().map(String::as_str))
+            ),
             Self::UnknownGesture { nearest, .. } => format!(
                 "did you mean \"{nearest}\"? A gesture of your own (`deictic gestures learn`) needs a name less like it"
             ),

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
@@ -43,7 +44,7 @@ pub struct Action {
     pub words: Vec<Name>,
     #[serde(default)]
     pub gestures: Vec<Name>,
-    pub motion: Option<String>,
+    pub motion: Option<Name>,
     #[serde(default)]
     pub compulsory: Vec<Name>,
     #[serde(default)]
@@ -58,6 +59,8 @@ pub struct Action {
 #[derive(Debug)]
 pub struct Choice {
     pub name: String,
+    /// Where the name is, if it is not all there is.
+    pub place: Option<Range<usize>>,
     pub words: Vec<Name>,
     pub gestures: Vec<Name>,
 }
@@ -96,7 +99,7 @@ impl<'de> Deserialize<'de> for Choice {
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
         struct Full {
-            name: String,
+            name: Name,
             #[serde(default)]
             words: Vec<Name>,
             #[serde(default)]
@@ -114,6 +117,7 @@ impl<'de> Deserialize<'de> for Choice {
             fn visit_str<E: Error>(self, name: &str) -> Result<Choice, E> {
                 Ok(Choice {
                     name: name.to_owned(),
+                    place: None,
                     words: Vec::new(),
                     gestures: Vec::new(),
                 })
@@ -122,7 +126,8 @@ impl<'de> Deserialize<'de> for Choice {
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Choice, A::Error> {
                 let full = Full::deserialize(MapAccessDeserializer::new(map))?;
                 Ok(Choice {
-                    name: full.name,
+                    place: Some(full.name.span()),
+                    name: full.name.into_inner(),
                     words: full.words,
                     gestures: full.gestures,
                 })

@@ -11,6 +11,7 @@ use toml::Spanned;
 use super::entries::{categories, check_name, known, saturate};
 use super::error::{Found, VocabularyProblem as Problem};
 use super::file::{self, File, Name};
+use super::said::{motion_places, said};
 use super::{CategoryEntries, Entry, Lexicon, TABLETOP};
 use crate::diagnose::FileError;
 
@@ -91,12 +92,15 @@ fn build(file: File) -> Found<Lexicon> {
     )
     .map_err(|e| (place_of(&file, &e), Problem::Refused(e)))?;
     let similarity = super::similarity::load(&file.similarity, &categories)?;
+    let said = said(&file)?;
     let motions = file.action.iter().map(|a| {
-        let motion = a.motion.as_ref();
-        motion.unwrap_or(a.name.as_ref()).clone()
+        let motion = a.motion.as_ref().unwrap_or(&a.name);
+        motion.as_ref().clone()
     });
     Ok(Lexicon {
         motions: motions.collect(),
+        motion_places: motion_places(&file),
+        said,
         name: file.name,
         language_place: file.language.as_ref().map(Spanned::span),
         language: file

@@ -5,6 +5,7 @@ mod entries;
 mod error;
 mod file;
 mod load;
+mod said;
 mod similarity;
 mod written;
 
@@ -15,6 +16,7 @@ use deictic_core::large;
 
 pub use error::VocabularyProblem;
 pub use load::VocabularyFileError;
+pub use said::Said;
 pub use similarity::SimilarityTables;
 
 /// The vocabulary that comes with the program: the paper's nine actions on a tabletop.
@@ -64,6 +66,8 @@ pub struct Lexicon {
     vocabulary: large::Vocabulary,
     categories: Vec<CategoryEntries>,
     motions: Vec<String>,
+    motion_places: Vec<Option<Range<usize>>>,
+    said: Vec<Said>,
     features: Vec<String>,
     fillers: Vec<String>,
     similarity: SimilarityTables,
@@ -158,6 +162,18 @@ impl Lexicon {
     #[must_use]
     pub fn motion(&self, action: u8) -> Option<&str> {
         self.motions.get(usize::from(action)).map(String::as_str)
+    }
+
+    /// Where in its file an action names its motion, in bytes, if it does.
+    #[must_use]
+    pub fn motion_place(&self, action: u8) -> Option<Range<usize>> {
+        self.motion_places.get(usize::from(action)).cloned()?
+    }
+
+    /// The names and words of actions, objects and storages with their places in the file.
+    #[must_use]
+    pub fn said(&self) -> &[Said] {
+        &self.said
     }
 
     /// The names of the features, in the order of a thing's feature likelihoods.

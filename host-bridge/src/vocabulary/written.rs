@@ -26,8 +26,9 @@ impl<'a> Written<'a> {
             name,
             words,
             gestures,
+            place,
         } = choice.as_ref();
-        let place = choice.span();
+        let place = place.clone().unwrap_or_else(|| choice.span());
         Self {
             name,
             place,
@@ -101,7 +102,7 @@ impl<'a> Written<'a> {
 }
 
 /// Letters in one case with single spaces, as words are compared.
-fn tidy(text: &str) -> String {
+pub(super) fn tidy(text: &str) -> String {
     let text = text.replace(['-', '_'], " ").to_lowercase();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
