@@ -212,6 +212,31 @@ fn names_that_nobody_could_say_and_motions_that_no_robot_has_are_refused() {
 }
 
 #[test]
+fn what_is_no_likelihood_and_no_place_is_told_so() {
+    let folder = folder("likelihood");
+    let thing =
+        "[[object]]\nname = \"can\"\nposition = [0.4, 0, 0.1]\nfeatures = { glued = \"no\" }\n";
+    std::fs::write(folder.join("desk.toml"), thing).unwrap();
+    let error = refused(&folder, &[&PICK[..], &["--scene", "desk.toml"]].concat());
+    has(
+        &error,
+        &["desk.toml:4:", "a number from 0 to 1, or true or false"],
+    );
+    let set = ["scene", "set", "--port", "9", "--object", "can"];
+    for (option, wrong, what) in [
+        ("--at", "nan,0,0", "three finite numbers, in metres"),
+        ("--at", "0.4,inf,0", "three finite numbers, in metres"),
+        ("--feature", "glued=nan", "a likelihood from 0 to 1"),
+        ("--feature", "glued=1.5", "a likelihood from 0 to 1"),
+    ] {
+        has(
+            &refused(&folder, &[&set[..], &[option, wrong]].concat()),
+            &[wrong, what],
+        );
+    }
+}
+
+#[test]
 fn a_thing_that_is_there_twice_is_named() {
     let folder = folder("twice");
     let (_, things) = TABLE

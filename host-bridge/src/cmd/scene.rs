@@ -67,18 +67,26 @@ struct Set {
 
 fn place(written: &str) -> Result<[f32; 3], String> {
     let numbers: Result<Vec<f32>, _> = written.split(',').map(|n| n.trim().parse()).collect();
-    let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
-    numbers.ok_or_else(|| format!("`{written}` is no place; write it as 0.4,-0.1,0.06"))
+    let finite = numbers.ok().filter(|all| all.iter().all(|n| n.is_finite()));
+    let place = finite.and_then(|numbers| numbers.try_into().ok());
+    place.ok_or_else(|| {
+        format!("`{written}` is no place; write three finite numbers, in metres, as 0.4,-0.1,0.06")
+    })
 }
 
 fn feature(written: &str) -> Result<(String, Likelihood), String> {
-    let error = || format!("`{written}` is no feature; write it as glued=0.8 or glued=true");
+    let error = || {
+        format!(
+            "`{written}` is no feature with a likelihood from 0 to 1; write it as glued=0.8 or glued=true"
+        )
+    };
     let (name, likelihood) = written.split_once('=').ok_or_else(error)?;
     let likelihood = match likelihood {
         "true" => Likelihood::Certain(true),
         "false" => Likelihood::Certain(false),
         number => Likelihood::Some(number.parse().map_err(|_| error())?),
     };
+    likelihood.value().map_err(|_| error())?;
     Ok((name.to_owned(), likelihood))
 }
 

@@ -56,7 +56,10 @@ impl Thing {
 
 /// How likely a feature is, as people write it.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "a feature's likelihood is a number from 0 to 1, or true or false"
+)]
 pub enum Likelihood {
     /// `true` or `false`.
     Certain(bool),
