@@ -29,7 +29,7 @@ pub struct Guesser {
     names: Vec<(String, Sound, Category, u8)>,
     roles: Vec<(Sound, Role)>,
     /// Forms of verbs that are no commands.
-    forms: Vec<(Sound, u8)>,
+    forms: Vec<Sound>,
 }
 
 impl Guesser {
@@ -47,7 +47,7 @@ impl Guesser {
         };
         let roles = ROLES.iter().flat_map(role).collect();
         let forms = table.forms_of();
-        let forms = forms.map(|(words, o)| (ear.listen(&words), o)).collect();
+        let forms = forms.map(|words| ear.listen(&words)).collect();
         Self {
             ear,
             names,
@@ -84,20 +84,19 @@ impl Guesser {
                 // One word has one category; which of its options is left to the likelihoods.
                 let top = names.iter().filter(|n| n.0 == best);
                 let top = top.map(|&(_, category, option)| Meaning::Name(category, option));
-                piece.what = match self.form(&heard) {
-                    // "Vezmne" is "vezme" rather than "vezmi".
-                    (like, form) if like > best => What::Known(vec![Meaning::Form(form)]),
-                    _ => What::Known(top.collect()),
-                };
+                // "Vezmne" is "vezme" rather than "vezmi": what may be no command is said again.
+                if self.form(&heard) <= best {
+                    piece.what = What::Known(top.collect());
+                }
             }
         }
     }
 
-    /// The form of a verb that is most like this, and how much.
-    fn form(&self, heard: &Sound) -> (f64, u8) {
-        let forms = self.forms.iter();
-        let alike = forms.map(|(sound, option)| (self.ear.likeness(heard, sound), *option));
-        alike.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 0))
+    /// How alike the most alike form of a verb is that is no command.
+    fn form(&self, heard: &Sound) -> f64 {
+        let alike = self.forms.iter();
+        let alike = alike.map(|form| self.ear.likeness(heard, form));
+        alike.fold(0.0, f64::max)
     }
 
     /// The known words that are most like this one, the nearest first.

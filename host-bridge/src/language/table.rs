@@ -228,14 +228,10 @@ impl Table {
         })
     }
 
-    /// Every form of an action's verb that is no command: its words and the action.
-    pub fn forms_of(&self) -> impl Iterator<Item = (String, u8)> + '_ {
-        self.phrases.iter().flat_map(|phrase| {
-            phrase.meanings.iter().filter_map(|m| match m {
-                Meaning::Form(option) => Some((phrase.tokens.join(" "), *option)),
-                _ => None,
-            })
-        })
+    /// Every form of an action's verb that is no command.
+    pub fn forms_of(&self) -> impl Iterator<Item = String> + '_ {
+        let forms = self.phrases.iter().filter(|phrase| phrase.is_form());
+        forms.map(|phrase| phrase.tokens.join(" "))
     }
 
     /// Single words of the pack with this role.
