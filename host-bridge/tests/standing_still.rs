@@ -177,6 +177,16 @@ fn what_waits_behind_what_is_pending_is_not_begun_either() {
 }
 
 #[test]
+fn talk_after_a_command_takes_nothing_of_it_back() {
+    let mut typing = Typing::begin(&["--haste", "200", "--window", "300"]);
+    typing.say("pick the can");
+    typing.until("heard");
+    typing.say("thanks");
+    let printed = typing.end();
+    assert!(printed.contains("\"event\":\"done\""), "{printed}");
+}
+
+#[test]
 fn talk_keeps_what_is_shown_with_it_from_being_done() {
     for said in ["lunch break at noon", "good morning", "thanks"] {
         let mut typing = Typing::begin(&["--haste", "200", "--window", "500"]);
@@ -186,4 +196,44 @@ fn talk_keeps_what_is_shown_with_it_from_being_done() {
         let printed = typing.end();
         assert!(!printed.contains("\"event\":\"step\""), "{said}: {printed}");
     }
+}
+
+/// What is printed when this is heard, as a recogniser's line, while the arm moves.
+fn heard_while_it_moves(line: &str) -> String {
+    let name = format!("deictic-heard-{}-{}", std::process::id(), line.len());
+    let moves = std::env::temp_dir().join(name);
+    let moves = moves.to_str().unwrap();
+    let speech = format!("lines:while [ ! -e {moves} ]; do sleep 0.02; done; echo '{line}'");
+    let arguments = ["--haste", "2", "--window", "50", "--speech", &speech];
+    let mut typing = Typing::begin(&arguments);
+    typing.say("pick the can");
+    typing.until("step");
+    std::fs::write(moves, "").unwrap();
+    let printed = typing.end();
+    std::fs::remove_file(moves).unwrap();
+    printed
+}
+
+#[test]
+fn whatever_may_have_been_a_refusal_stops_a_moving_arm() {
+    let heard = |alternatives: &[(&str, f32)]| {
+        let alternatives = alternatives.iter().map(
+            |(text, confidence)| serde_json::json!({ "text": text, "confidence": confidence }),
+        );
+        let alternatives: Vec<_> = alternatives.collect();
+        serde_json::json!({ "alternatives": alternatives }).to_string()
+    };
+    for alternatives in [
+        &[("good morning", 0.95), ("no", 0.05)][..],
+        &[("good morning", 0.95), ("stop", 0.05)],
+        &[("push the box", 0.95), ("don\u{2019}t push the box", 0.05)],
+        &[("no doubt", 1.0)],
+        &[("whoa", 1.0)],
+        &[("stpo", 1.0)],
+    ] {
+        let printed = heard_while_it_moves(&heard(alternatives));
+        assert!(stops(&printed), "{alternatives:?}: {printed}");
+    }
+    let printed = heard_while_it_moves(&heard(&[("good morning", 0.995), ("no", 0.005)]));
+    assert!(!stops(&printed), "{printed}");
 }

@@ -260,9 +260,9 @@ impl Conversation<'_> {
         }
     }
 
-    /// A share of what may have been heard that is enough to stand still: while something is going on, whatever is above the risk.
+    /// A share of what may have been heard that is enough to stand still: while the arm moves, whatever is above the risk.
     fn enough(&self, session: &Session<'_>) -> f64 {
-        match self.is_going_on(session) {
+        match session.is_moving() {
             true => self.listener.risk.min(MAY_BE_STOP),
             false => MAY_BE_STOP,
         }
