@@ -7,8 +7,10 @@
 
 mod anything;
 mod commands;
+mod ears;
 mod error;
 mod fits;
+mod hearing;
 mod measures;
 pub mod moonshine;
 mod paths;
@@ -22,9 +24,11 @@ pub mod segment;
 pub mod sound;
 pub mod source;
 
+pub use ears::{Ears, Heard};
 pub use error::SpeechError;
 pub use moonshine::Moonshine;
+pub use phrases::Expected;
 pub use pocketsphinx::Pocketsphinx;
 pub use program::samples;
-pub use recogniser::{Expected, Kind, Recogniser};
-pub use source::{Ears, Heard, Source};
+pub use recogniser::{Kind, Recogniser};
+pub use source::Source;

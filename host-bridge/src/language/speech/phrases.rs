@@ -44,6 +44,15 @@ pub(super) struct Takes {
     pub measures: BitSet,
 }
 
+/// What somebody is expected to say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expected {
+    /// A command.
+    Command,
+    /// The answer to a question: a name, yes or no.
+    Answer,
+}
+
 /// What a rule is to be restricted to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Only {

@@ -11,10 +11,9 @@ use tempfile::TempDir;
 
 use super::anything;
 use super::error::SpeechError;
-use super::phrases::{Only, Phrases};
+use super::phrases::{Expected, Only, Phrases};
 use super::program::{file, run, write};
 use super::pronounce::Dictionary;
-use super::recogniser::Expected;
 use super::sound::{self, Colour};
 use crate::language::pack::Pack;
 use crate::language::{LanguageError, Spoken};

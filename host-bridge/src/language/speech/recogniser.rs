@@ -5,19 +5,11 @@ use std::str::FromStr;
 
 use super::error::SpeechError;
 use super::moonshine::{self, Moonshine};
+use super::phrases::Expected;
 use super::pocketsphinx::{self, Pocketsphinx};
 use crate::language::Spoken;
 use crate::language::pack::Pack;
 use crate::vocabulary::Lexicon;
-
-/// What somebody is expected to say.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Expected {
-    /// A command.
-    Command,
-    /// The answer to a question: a name, yes or no.
-    Answer,
-}
 
 /// Which recogniser.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
