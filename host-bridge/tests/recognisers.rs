@@ -52,6 +52,10 @@ fn hears_what_is_said(kind: Kind) {
         "{forbidden:?}"
     );
     assert_eq!(hear("yes", Expected::Answer).best(), "yes");
+    for refused in ["no", "no don't"] {
+        let heard = hear(refused, Expected::Command);
+        assert_eq!(heard.certain(0.05), Some(refused), "{heard:?}");
+    }
     for talk in ["the weather is lovely today", "my sister bought a new car"] {
         let heard = hear(talk, Expected::Command);
         assert_eq!(heard.best(), "", "{heard:?}");

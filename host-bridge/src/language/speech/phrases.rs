@@ -23,6 +23,8 @@ pub struct Phrases {
     pub(super) storages: Vec<Vec<String>>,
     pub(super) directions: Vec<String>,
     pub(super) measures: Measures,
+    /// The action that stops.
+    stop: Option<usize>,
     left_out: Vec<String>,
 }
 
@@ -64,6 +66,8 @@ pub enum Only {
     Forbidden,
     /// The name of this option alone, as an answer to a question.
     Name(Category, usize),
+    /// That what is going on is not to go on: "no", "no, stop", "don't".
+    Refusal,
     /// What is told the robot itself.
     Order,
     /// Yes.
@@ -130,6 +134,7 @@ impl Phrases {
             storages,
             directions,
             measures,
+            stop: lexicon.vocabulary().stop().map(usize::from),
             left_out,
         })
     }
@@ -175,14 +180,14 @@ impl Phrases {
         options(Category::ACTION, self.actions.len())
             .chain(options(Category::OBJECT, self.objects.len()))
             .chain(options(Category::STORAGE, self.storages.len()))
-            .chain([Only::Forbidden, Only::Order])
+            .chain([Only::Forbidden, Only::Refusal, Only::Order])
             .collect()
     }
 
-    /// Whatever may be commanded, forbidden, or told the robot itself.
+    /// Whatever may be commanded, forbidden, refused, or told the robot itself.
     #[must_use]
     pub fn any_command(&self) -> Vec<Only> {
-        vec![Only::Command, Only::Forbidden, Only::Order]
+        vec![Only::Command, Only::Forbidden, Only::Refusal, Only::Order]
     }
 
     /// All that answers are held against.
@@ -196,6 +201,13 @@ impl Phrases {
             .collect()
     }
 
+    fn refusal(&self) -> Option<Rule> {
+        let no = [self.speech.no.as_slice(), &self.speech.not].concat();
+        let stop = self.stop.and_then(|stop| self.actions.get(stop));
+        let more = [no.as_slice(), stop.map_or(&[], |s| &s.phrases)].concat();
+        Some(all([Rule::any_of(&no), Rule::maybe_of(&more)]))
+    }
+
     /// What is left under a restriction; `None` when nothing is.
     #[must_use]
     pub fn rule(&self, only: Only) -> Option<Rule> {
@@ -204,6 +216,7 @@ impl Phrases {
             Only::Name(Category::ACTION, o) => &self.actions.get(o)?.phrases,
             Only::Name(Category::OBJECT, o) => self.objects.get(o)?,
             Only::Name(_, o) => self.storages.get(o)?,
+            Only::Refusal => return self.refusal(),
             Only::Order => &self.speech.order,
             Only::Yes => &self.speech.yes,
             Only::No => &self.speech.no,
@@ -263,6 +276,11 @@ mod tests {
         assert!(stack.contains("pile") && !stack.contains("put on"));
         let not = phrases.rule(Only::Forbidden).unwrap().to_string();
         assert!(not.contains("(don't | do not | never) ("));
+        let refused = phrases.rule(Only::Refusal).unwrap().to_string();
+        assert!(
+            refused.starts_with("(no | ") && refused.contains("halt"),
+            "{refused}"
+        );
     }
 
     #[test]
