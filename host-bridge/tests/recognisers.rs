@@ -53,7 +53,7 @@ fn hears_what_is_said(kind: Kind) {
     );
     assert_eq!(hear("yes", Expected::Answer).best(), "yes");
     for refused in ["no", "no don't"] {
-        let heard = hear(refused, Expected::Command);
+        let heard = hear(refused, Expected::Underway);
         assert_eq!(heard.certain(0.05), Some(refused), "{heard:?}");
     }
     for talk in ["the weather is lovely today", "my sister bought a new car"] {
@@ -107,7 +107,8 @@ fn moonshine_hears_what_is_said_and_takes_no_question_for_a_command() {
 /// What a laboratory sounds like when nobody says anything.
 #[test]
 fn what_is_no_speech_is_no_command() {
-    if !installed() {
+    if moonshine::installed().is_none() || !installed() {
+        eprintln!("skipped: Moonshine is not installed where DEICTIC_MOONSHINE says");
         return;
     }
     let folder = TempDir::new().unwrap();

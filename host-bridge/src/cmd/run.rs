@@ -24,7 +24,7 @@ use super::sensing::{Sensing, drain};
 use super::trust::Trust;
 use super::{advice, paint};
 use crate::language::Listener;
-use crate::language::speech::Heard;
+use crate::language::speech::{Expected, Heard};
 use crate::link::Address;
 use crate::robot::{self, address::reach};
 use crate::scene::SceneLine;
@@ -180,7 +180,11 @@ impl Run {
             scenes.turn(&mut session);
             pictures.turn(&session);
             if let Some(open) = &mut ears {
-                open.expect(session.question().is_some());
+                open.expect(match session.question() {
+                    Some(_) => Expected::Answer,
+                    None if session.is_moving() => Expected::Underway,
+                    None => Expected::Command,
+                });
                 match open.poll() {
                     Heard::Spoken(spoken) => conversation.spoken(&mut session, spoken),
                     Heard::Nothing(error) => conversation.unheard(&mut session, &error),

@@ -3,14 +3,14 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, ChildStderr, Command, Stdio};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::error::SpeechError;
 use super::hearing::{listen, read_lines};
+use super::phrases::Expected;
 use super::recogniser::Recogniser;
 use super::source::Source;
 use crate::language::Spoken;
@@ -55,7 +55,7 @@ pub enum Heard {
 /// Listens to a source beside the session. The program it reads from ends with it.
 pub struct Ears {
     heard: Receiver<Result<Spoken, SpeechError>>,
-    asked: Arc<AtomicBool>,
+    expected: Arc<Mutex<Expected>>,
     program: Option<Child>,
     source: Source,
     /// What the program said on its standard error, a line at a time, until that is closed.
@@ -96,28 +96,29 @@ impl Ears {
         let name = source.to_string();
         let said = lines_of(program.stderr.take());
         let (to, heard) = channel();
-        let asked = Arc::new(AtomicBool::new(false));
+        let expected = Arc::new(Mutex::new(Expected::Command));
         if let Some(output) = output {
             if matches!(source, Source::Lines(_)) {
                 thread::spawn(move || read_lines(output, &name, &to));
             } else {
                 let mut recogniser = recogniser()?;
-                let asked = Arc::clone(&asked);
-                thread::spawn(move || listen(output, &mut recogniser, &asked, &name, &to));
+                let expected = Arc::clone(&expected);
+                thread::spawn(move || listen(output, &mut recogniser, &expected, &name, &to));
             }
         }
         Ok(Self {
             heard,
-            asked,
+            expected,
             program: Some(program),
             source: source.clone(),
             said,
         })
     }
 
-    /// Whether a question is open, so that answers are listened for.
-    pub fn expect(&self, answer: bool) {
-        self.asked.store(answer, Ordering::Relaxed);
+    /// What is listened for from now on.
+    pub fn expect(&self, expected: Expected) {
+        // Another thread that failed with it held has not left half of it.
+        *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = expected;
     }
 
     /// What has come, without waiting.

@@ -3,8 +3,8 @@
 
 use std::fmt;
 use std::io::{BufRead, Read};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
+use std::sync::{Mutex, PoisonError};
 
 use super::error::SpeechError;
 use super::phrases::Expected;
@@ -57,22 +57,18 @@ fn spoken(line: &[u8]) -> Result<Spoken, SpeechError> {
     Ok(Spoken::read(text.trim())?)
 }
 
-/// Sound goes to the recogniser an utterance at a time; an answer is expected while one is `asked` for.
+/// Sound goes to the recogniser an utterance at a time, with what is expected when it ends.
 pub fn listen(
     mut output: impl Read,
     recogniser: &mut Recogniser,
-    asked: &AtomicBool,
+    expected: &Mutex<Expected>,
     name: &str,
     to: &Told,
 ) {
     let mut segmenter = Segmenter::default();
     let mut bytes = vec![0; 2 * sound::MOMENT];
     let mut hear = |samples: &[i16]| {
-        let expected = if asked.load(Ordering::Relaxed) {
-            Expected::Answer
-        } else {
-            Expected::Command
-        };
+        let expected = *expected.lock().unwrap_or_else(PoisonError::into_inner);
         to.send(recogniser.hear(samples, expected)).is_ok()
     };
     loop {

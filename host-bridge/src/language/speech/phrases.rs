@@ -51,6 +51,8 @@ pub(super) struct Takes {
 pub enum Expected {
     /// A command.
     Command,
+    /// A command, or that what the robot is doing is not to go on.
+    Underway,
     /// The answer to a question: a name, yes or no.
     Answer,
 }
@@ -180,14 +182,14 @@ impl Phrases {
         options(Category::ACTION, self.actions.len())
             .chain(options(Category::OBJECT, self.objects.len()))
             .chain(options(Category::STORAGE, self.storages.len()))
-            .chain([Only::Forbidden, Only::Refusal, Only::Order])
+            .chain([Only::Forbidden, Only::Order])
             .collect()
     }
 
-    /// Whatever may be commanded, forbidden, refused, or told the robot itself.
+    /// Whatever may be commanded, forbidden, or told the robot itself.
     #[must_use]
     pub fn any_command(&self) -> Vec<Only> {
-        vec![Only::Command, Only::Forbidden, Only::Refusal, Only::Order]
+        vec![Only::Command, Only::Forbidden, Only::Order]
     }
 
     /// All that answers are held against.

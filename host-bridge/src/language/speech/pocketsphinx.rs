@@ -64,6 +64,7 @@ pub struct Pocketsphinx {
     /// The words of its dictionary.
     words: BTreeSet<String>,
     commands: Vec<PathBuf>,
+    underway: Vec<PathBuf>,
     answers: Vec<PathBuf>,
     /// Of whatever else may be said.
     anything: PathBuf,
@@ -106,12 +107,14 @@ impl Pocketsphinx {
             written.collect::<Result<Vec<_>, _>>()
         };
         let (commands, answers) = (all(phrases.commands())?, all(phrases.answers())?);
+        let underway = [commands.clone(), all(vec![Only::Refusal])?].concat();
         Ok(Self {
             folder,
             model: model.to_owned(),
             left_out: phrases.left_out().to_vec(),
             words,
             commands,
+            underway,
             answers,
             anything,
             takes: AtomicUsize::new(0),
@@ -163,6 +166,7 @@ impl Pocketsphinx {
         let folder = self.take(samples)?;
         let grammars = match expected {
             Expected::Command => &self.commands,
+            Expected::Underway => &self.underway,
             Expected::Answer => &self.answers,
         };
         let next = AtomicUsize::new(0);

@@ -27,7 +27,7 @@ use self::search::{Found, Search, anything};
 use self::tokens::{Token, Tokens};
 use super::error::SpeechError;
 use super::paths::Paths;
-use super::phrases::{Expected, Phrases};
+use super::phrases::{Expected, Only, Phrases};
 use super::pocketsphinx::Pocketsphinx;
 use super::program::file;
 use super::sound::{RATE, range};
@@ -63,6 +63,7 @@ pub struct Moonshine {
     model: Model,
     tokens: Tokens,
     commands: Search,
+    underway: Search,
     answers: Search,
     /// Words that change no meaning.
     idle: Vec<String>,
@@ -136,6 +137,7 @@ impl Moonshine {
             model,
             tokens,
             commands: search(phrases.any_command()),
+            underway: search([phrases.any_command(), vec![Only::Refusal]].concat()),
             answers: search([phrases.answers(), phrases.any_command()].concat()),
             idle: phrases.idle(),
             silence,
@@ -178,6 +180,7 @@ impl Moonshine {
     fn alone(&mut self, samples: &[i16], expected: Expected) -> Result<Scores, SpeechError> {
         let search = match expected {
             Expected::Command => &mut self.commands,
+            Expected::Underway => &mut self.underway,
             Expected::Answer => &mut self.answers,
         };
         let (model, tokens) = (&mut self.model, &self.tokens);
