@@ -88,6 +88,10 @@ pub fn of(text: &str, utterance: Utterance) -> Understood {
             Why::Question => "is a question, not a command",
             Why::Conditional => "depends on something nobody checks",
             Why::Told => "tells something, and commands nothing",
+            Why::Own => "is what you mean to do: to have it done, say \"I want you to\" and what",
+            Why::Timed => {
+                "is for another time, and nothing is kept for later: say it when it is to be done"
+            }
             Why::Talk => "commands nothing",
             Why::Corrected => "was taken back",
         };

@@ -41,6 +41,10 @@ pub enum Mood {
     Conditional,
     /// Told of.
     Told,
+    /// To be done by who speaks.
+    Own,
+    /// To be done at another time.
+    Timed,
 }
 
 /// A clause.

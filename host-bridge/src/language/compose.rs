@@ -21,6 +21,10 @@ pub enum Why {
     Conditional,
     /// It told something.
     Told,
+    /// It told what who speaks means to do.
+    Own,
+    /// It is for another time, which nobody waits for.
+    Timed,
     /// It was talk.
     Talk,
     /// It was replaced or withdrawn.
@@ -115,6 +119,8 @@ impl Composer<'_> {
             Mood::Question => Why::Question,
             Mood::Conditional => Why::Conditional,
             Mood::Told => Why::Told,
+            Mood::Own => Why::Own,
+            Mood::Timed => Why::Timed,
         };
         if why == Why::Negated {
             let says = |p: &Piece| p.is_name() || p.forms().next().is_some();

@@ -1,5 +1,7 @@
 //! Pieces to clauses, and which of them are no commands at all but prohibitions, questions, conditions, tales or talk.
 
+use deictic_core::category::Category;
+
 use super::clause::{Clause, Link, Mood, is_empty};
 use super::pack::Role;
 use super::read::{Piece, What};
@@ -14,9 +16,50 @@ pub fn clauses(pieces: &[Piece], table: &Table) -> Vec<Clause> {
     for sentence in pieces.split_inclusive(ends) {
         let asked = sentence.last().is_some_and(|p| p.what == What::Question);
         let words = sentence.iter().filter(|p| !ends(p)).cloned().collect();
-        all.extend(of_sentence(words, asked, table));
+        all.push(of_sentence(words, asked, table));
     }
-    all
+    // "Push the cube!" he said.
+    for at in 0..all.len() {
+        let only = |list: &Vec<Clause>| {
+            let said = |c: &Clause| c.pieces.iter().any(says);
+            list.iter().any(|c| reports(c, table)) && !list.iter().any(said)
+        };
+        if all.get(at).is_some_and(only) {
+            for beside in [at.checked_sub(1), at.checked_add(1)] {
+                let list = beside.and_then(|beside| all.get_mut(beside));
+                instead(
+                    list.map_or(&mut [], |list| list.as_mut_slice()),
+                    Mood::Told,
+                    table,
+                );
+            }
+        }
+    }
+    all.concat()
+}
+
+/// Makes this of the commands. Only a stop is one however it is said, as it harms nobody.
+fn instead(list: &mut [Clause], mood: Mood, table: &Table) {
+    let stops = |p: &Piece| p.is_action() && p.names(Category::ACTION).eq(table.stop);
+    let commands = list.iter_mut().filter(|c| c.mood == Mood::Command);
+    for clause in commands.filter(|c| !c.pieces.iter().any(stops)) {
+        clause.mood = mood;
+    }
+}
+
+/// Whether a clause tells what somebody said: with a word for it, or with a verb behind its subject
+/// that is not known but has a verb's ending, as "he bellowed" has.
+fn reports(clause: &Clause, table: &Table) -> bool {
+    let endings = &table.pack().endings.verb;
+    let verb = |p: &Piece| {
+        p.what == What::Unknown && endings.iter().any(|e| p.words.ends_with(e.as_str()))
+    };
+    let tells = |pair: &[Piece]| match pair {
+        [subject, next] => subject.is(Role::Subject) && verb(next),
+        _ => false,
+    };
+    let word = |p: &Piece| p.is(Role::Report) && !p.is_name();
+    clause.pieces.iter().any(word) || clause.pieces.windows(2).any(tells)
 }
 
 fn of_sentence(mut pieces: Vec<Piece>, mut asked: bool, table: &Table) -> Vec<Clause> {
@@ -32,7 +75,7 @@ fn of_sentence(mut pieces: Vec<Piece>, mut asked: bool, table: &Table) -> Vec<Cl
     let questioned = first.is_some_and(|p| p.is(Role::Question))
         || !polite && (asked || first.is_some_and(|p| p.is(Role::RequestQuestion)));
     let conditional = pieces.iter().any(|p| p.is(Role::Condition) && !p.is_name());
-    let mut list = split(pieces, table);
+    let mut list = split(pieces.clone(), table);
     // "Once the cup is empty, push it" waits for what nobody checks.
     let waits = |c: &Clause| matches!(c.link, Link::Earlier(_)) && mood(c, polite) == Mood::Told;
     let conditional = conditional || list.iter().any(waits);
@@ -55,6 +98,12 @@ fn of_sentence(mut pieces: Vec<Piece>, mut asked: bool, table: &Table) -> Vec<Cl
         let empty = clause.mood == Mood::Question
             || clause.mood == Mood::Negated && !clause.pieces.iter().any(says);
         carried = (clause.mood != Mood::Command).then_some((clause.mood, empty));
+    }
+    if list.iter().any(|c| reports(c, table)) {
+        instead(&mut list, Mood::Told, table);
+    }
+    if pieces.iter().any(|p| p.is(Role::Time) && !p.is_name()) {
+        instead(&mut list, Mood::Timed, table);
     }
     list
 }
@@ -101,6 +150,9 @@ fn mood(clause: &Clause, polite: bool) -> Mood {
         return Mood::Told;
     }
     let you = |p: &Piece| temporal && p.is(Role::You);
+    if told_of(place(&|p| p.is(Role::Own))) {
+        return Mood::Own;
+    }
     let subject = place(&|p| p.is(Role::Subject) && !you(p));
     if told_of(subject) && request.is_none_or(|r| subject.is_some_and(|s| s < r && r - s > 1)) {
         return Mood::Told;

@@ -77,6 +77,12 @@ pub enum Role {
     You,
     /// A verb's form that is no command.
     Mention,
+    /// Tells what somebody said or thought: no command of who speaks now.
+    Report,
+    /// What follows is what who speaks means to do.
+    Own,
+    /// Another time than now.
+    Time,
 }
 
 /// The grammar words of a language.

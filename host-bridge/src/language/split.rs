@@ -15,7 +15,9 @@ fn ahead(rest: &[Piece]) -> Option<&Piece> {
 }
 
 fn opens(piece: &Piece) -> bool {
-    const OPENERS: [Role; 7] = [
+    const OPENERS: [Role; 9] = [
+        Role::Own,
+        Role::Report,
         Role::Not,
         Role::Request,
         Role::Question,
