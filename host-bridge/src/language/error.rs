@@ -77,6 +77,12 @@ pub enum LanguageError {
         /// As it was said.
         word: String,
     },
+    /// Digits that may be more than one number.
+    #[error("\"{word}\" may be more than one number")]
+    UnclearNumber {
+        /// As it was said.
+        word: String,
+    },
     /// More commands than one utterance may queue.
     #[error("{commands} commands in one utterance, at most {limit} are queued")]
     TooManyCommands {
@@ -144,6 +150,9 @@ impl LanguageError {
             Self::NoUnit { .. } => "say the unit too, as in \"5 cm\" or \"30 degrees\"".into(),
             Self::UnknownUnit { known, .. } => format!("known units: {}", known.join(", ")),
             Self::BadQuantity { .. } => "give a number below a million".into(),
+            Self::UnclearNumber { .. } => {
+                "write thousands without a mark, and a fraction with one: 1000 and 1.5".into()
+            }
             Self::TooManyCommands { .. } => "give them a few at a time".into(),
             Self::Unclear { .. } | Self::OtherCommand { .. } => "say it again".into(),
             Self::NoPack { .. } => {

@@ -3,7 +3,7 @@
 
 use super::error::LanguageError;
 use super::table::{Meaning, Table};
-use super::token::{Kind, Token};
+use super::token::{Kind, SIGNS, Token};
 
 /// What was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +21,17 @@ const LARGEST: f64 = 1e6;
 /// takes.
 ///
 /// # Errors
-/// [`LanguageError::BadQuantity`] beyond a million.
+/// [`LanguageError::BadQuantity`] beyond a million, [`LanguageError::UnclearNumber`].
 pub fn measure(
     tokens: &[Token],
     table: &Table,
 ) -> Result<Option<(Measured, usize)>, LanguageError> {
+    if let [sign, digits, ..] = tokens
+        && sign.text.starts_with(SIGNS)
+    {
+        let word = format!("{}{}", sign.text, digits.text);
+        return Err(LanguageError::UnclearNumber { word });
+    }
     let run = tokens.iter().take_while(|t| t.kind == Kind::Word).count();
     let mut cursor = Cursor {
         tokens: tokens.get(..run).unwrap_or_default(),
@@ -35,11 +41,12 @@ pub fn measure(
     let minus = cursor
         .take(|m| matches!(m, Meaning::Minus).then_some(()))
         .is_some();
-    let Some(mut value) = cursor.number() else {
+    let Some(mut value) = cursor.number()? else {
         return Ok(None);
     };
     let number_end = cursor.at;
     let unit = cursor.take(unit_of);
+    let mut sum = 0.0;
     if unit.is_some() {
         // "a metre and a half"
         let before = cursor.at;
@@ -49,15 +56,19 @@ pub fn measure(
             _ => cursor.at = before,
         }
     }
+    if let Some((kind, factor)) = unit.filter(|(kind, _)| table.sums(*kind)) {
+        sum = cursor.smaller(kind, factor)?;
+    }
     if minus {
         value = -value;
+        sum = -sum;
     }
     let used = if unit.is_some() {
         cursor.at
     } else {
         number_end
     };
-    let measured = unit.map_or(value, |(_, factor)| value * factor);
+    let measured = unit.map_or(value, |(_, factor)| value * factor + sum);
     if !(measured.abs() <= LARGEST && value.abs() <= LARGEST) {
         let said = tokens.get(..used).unwrap_or_default();
         let said: Vec<_> = said.iter().map(|t| t.text.as_str()).collect();
@@ -110,20 +121,52 @@ impl Cursor<'_> {
         None
     }
 
-    fn digits(&mut self) -> Option<f64> {
-        let text = &self.tokens.get(self.at)?.text;
-        if !text.starts_with(|c: char| c.is_ascii_digit()) {
-            return None;
+    /// What is added in smaller units: "10 cm and 5 mm", "5 m 3 cm".
+    fn smaller(&mut self, kind: usize, mut factor: f64) -> Result<f64, LanguageError> {
+        let mut sum = 0.0;
+        loop {
+            let before = self.at;
+            self.take(|m| matches!(m, Meaning::NumberAnd).then_some(()));
+            let value = self.number()?;
+            let unit = value.and_then(|_| self.take(unit_of));
+            match value.zip(unit.filter(|&(k, f)| k == kind && f < factor)) {
+                Some((value, (_, smaller))) => {
+                    sum += value * smaller;
+                    factor = smaller;
+                }
+                None => {
+                    self.at = before;
+                    return Ok(sum);
+                }
+            }
         }
-        let value = text.replace(',', ".").parse().ok()?;
-        self.at += 1;
-        Some(value)
     }
 
-    fn number(&mut self) -> Option<f64> {
-        if let Some(value) = self.digits() {
-            return Some(self.with_fraction(value));
+    fn digits(&mut self) -> Result<Option<f64>, LanguageError> {
+        let Some(token) = self.tokens.get(self.at) else {
+            return Ok(None);
+        };
+        if !token.text.starts_with(|c: char| c.is_ascii_digit()) {
+            return Ok(None);
         }
+        let plain = plain(&token.text, self.table.pack().joints.thousands);
+        let plain = plain.ok_or_else(|| LanguageError::UnclearNumber {
+            word: token.text.clone(),
+        })?;
+        let value = plain.parse().ok();
+        self.at += usize::from(value.is_some());
+        Ok(value)
+    }
+
+    fn number(&mut self) -> Result<Option<f64>, LanguageError> {
+        match self.digits()? {
+            Some(value) => Ok(Some(self.with_fraction(value))),
+            None => Ok(self.spelt()),
+        }
+    }
+
+    /// A number in words.
+    fn spelt(&mut self) -> Option<f64> {
         let mut value = self.take(number_of)?;
         if value < 1.0 && value > 0.0 {
             return Some(value);
@@ -181,6 +224,28 @@ impl Cursor<'_> {
     }
 }
 
+/// Digits without what groups them and with a dot before decimals; `None` when they may be more than
+/// one number.
+fn plain(text: &str, thousands: Option<char>) -> Option<String> {
+    // Without a mark of thousands the comma is decimal, and a dot may be either.
+    let mark = thousands.unwrap_or('.');
+    let decimal = if mark == ',' { '.' } else { ',' };
+    let (whole, decimals) = text.split_once(decimal).unwrap_or((text, ""));
+    let groups: Vec<_> = whole.split(mark).collect();
+    let (first, rest) = groups.split_first()?;
+    let grouped = first.len() <= 3 && !first.starts_with('0') && rest.iter().all(|g| g.len() == 3);
+    match rest {
+        _ if decimals.contains([mark, decimal]) => None,
+        [] => Some(text.replace(decimal, ".")),
+        _ if grouped => thousands.map(|_| format!("{}.{decimals}", groups.concat())),
+        [part] if decimals.is_empty() => {
+            let fraction = thousands.is_none() || part.len() < 3 || *first == "0";
+            fraction.then(|| format!("{first}.{part}"))
+        }
+        _ => None,
+    }
+}
+
 /// A number that may follow must be smaller than the last place of the one before: 10 after a
 /// hundred's hundreds, 1 after a ten's tens.
 fn last_place(value: f64) -> f64 {
@@ -190,5 +255,44 @@ fn last_place(value: f64) -> f64 {
         10.0
     } else {
         0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn marks_group_digits_or_stand_before_decimals() {
+        let english = |text| plain(text, Some(',')).and_then(|t| t.parse::<f64>().ok());
+        for (text, value) in [
+            ("1000", Some(1000.0)),
+            ("1,000", Some(1000.0)),
+            ("12,345", Some(12345.0)),
+            ("1,000,000", Some(1e6)),
+            ("1,250.5", Some(1250.5)),
+            ("1.250", Some(1.25)),
+            ("1,5", Some(1.5)),
+            ("1,25", Some(1.25)),
+            ("0,125", Some(0.125)),
+            ("1,0000", None),
+            ("1,00,000", None),
+            ("1.250,5", None),
+            ("1.2.3", None),
+        ] {
+            assert_eq!(english(text), value, "{text}");
+        }
+        let czech = |text| plain(text, None).and_then(|t| t.parse::<f64>().ok());
+        for (text, value) in [
+            ("1,000", Some(1.0)),
+            ("12,345", Some(12.345)),
+            ("1.5", Some(1.5)),
+            ("0.125", Some(0.125)),
+            ("1.000", None),
+            ("1.000,5", None),
+            ("1,000,5", None),
+        ] {
+            assert_eq!(czech(text), value, "{text}");
+        }
     }
 }

@@ -245,6 +245,13 @@ impl Table {
         single.filter_map(|p| p.tokens.first().map(String::as_str))
     }
 
+    /// Whether quantities of a kind add up, as "10 cm and 5 mm" do; "twice" and "50 percent" do not.
+    #[must_use]
+    pub fn sums(&self, kind: usize) -> bool {
+        let kind = self.kinds.get(kind);
+        kind.is_some_and(|(name, category)| name != "amount" && *category != Some(Category::AMOUNT))
+    }
+
     /// The language pack.
     #[must_use]
     pub fn pack(&self) -> &Pack {

@@ -71,8 +71,18 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, LanguageError> {
     let mut out = Vec::new();
     for (start, piece) in text.split_word_bound_indices() {
         let first = piece.chars().next().unwrap_or(' ');
+        let before = text.get(..start).unwrap_or_default();
         if first.is_alphanumeric() {
+            let at = out.len();
             words(piece, start, &mut out);
+            // ".5 m"
+            if let Some(token) = out
+                .get_mut(at)
+                .filter(|_| first.is_ascii_digit() && is_bare_point(before))
+            {
+                token.text.insert_str(0, "0.");
+                token.span.start = start - 1;
+            }
         } else if first == '_' {
             for part in piece.split('_').filter(|p| !p.is_empty()) {
                 words(
@@ -91,6 +101,17 @@ pub fn tokens(text: &str) -> Result<Vec<Token>, LanguageError> {
         Err(LanguageError::Empty)
     }
 }
+
+/// Whether a text ends with a decimal point that has no digit before it; what follows is a digit.
+fn is_bare_point(before: &str) -> bool {
+    before.strip_suffix('.').is_some_and(|rest| {
+        let last = rest.chars().next_back();
+        last.is_none_or(|c| c.is_whitespace() || SIGNS.contains(&c))
+    })
+}
+
+/// Signs of a number.
+pub(super) const SIGNS: [char; 3] = ['-', '\u{2212}', '+'];
 
 /// A piece that starts with a letter or digit: `put_into` and `5cm` are two words each.
 fn words(piece: &str, at: usize, out: &mut Vec<Token>) {
@@ -126,7 +147,21 @@ fn sign(text: &str, start: usize, piece: &str, first: char) -> Option<Token> {
             span: span.clone(),
         })
     };
+    let rest = text.get(start + piece.len()..).unwrap_or_default();
+    let digit = |c: char| c.is_ascii_digit();
+    let counts = |rest: &str| rest.strip_prefix('.').unwrap_or(rest).starts_with(digit);
     match first {
+        '.' if rest.starts_with(digit) && is_bare_point(text.get(..=start).unwrap_or_default()) => {
+            None
+        }
+        // "--5" is no number: it may be less than nothing or stand behind a dash.
+        '-' | '\u{2212}' | '+'
+            if rest.starts_with(SIGNS) && counts(rest.trim_start_matches(SIGNS)) =>
+        {
+            let rest_of_sign = rest.len() - rest.trim_start_matches(SIGNS).len();
+            let run = text.get(start..start + piece.len() + rest_of_sign);
+            token(Kind::Word, run.unwrap_or(piece))
+        }
         ',' | ':' | '(' | ')' | '\u{2013}' | '\u{2014}' | '\u{2026}' => token(Kind::Comma, ","),
         '.' | ';' | '!' | '\n' => token(Kind::Stop, "."),
         '?' | '\u{bf}' => token(Kind::Question, "?"),
@@ -136,9 +171,9 @@ fn sign(text: &str, start: usize, piece: &str, first: char) -> Option<Token> {
                 .chars()
                 .next_back()
                 .is_none_or(char::is_whitespace);
-            let after = text[start + piece.len()..].chars().next();
+            let after = rest.chars().next();
             match after {
-                Some(c) if c.is_ascii_digit() && before => token(Kind::Word, "minus"),
+                Some(_) if counts(rest) && before => token(Kind::Word, "minus"),
                 Some(c) if c.is_alphanumeric() && !before => None,
                 _ => token(Kind::Comma, ","),
             }
@@ -167,6 +202,11 @@ mod tests {
             ["don't", ",", "1.5", "m", ",", "1,5", "m"]
         );
         assert_eq!(of("turn -30\u{b0}"), ["turn", "minus", "30", "\u{b0}"]);
+        assert_eq!(
+            of(".5 m, -.5 m. 5"),
+            ["0.5", "m", ",", "minus", "0.5", "m", ".", "5"]
+        );
+        assert_eq!(of("--5 x--y -+5"), ["--", "5", "x", ",", "y", "-+", "5"]);
         assert_eq!(of("hrn\u{ed}\u{10d}ek"), ["hrnicek"]);
         assert_eq!(of("pick\u{0}the\u{7}\u{1b}cup"), ["pick", "the", "cup"]);
     }

@@ -89,6 +89,10 @@ pub struct Joints {
     /// Before a negative number.
     #[serde(default)]
     pub minus: Vec<String>,
+    /// What groups the digits of a number by three: "," in English, where "1,000" is a thousand. Without
+    /// it "1,000" is one, and "1.000" is refused, as it may be either.
+    #[serde(default)]
+    pub thousands: Option<char>,
 }
 
 /// Ends of a sentence that say nothing.
