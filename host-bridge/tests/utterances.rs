@@ -165,7 +165,35 @@ fn what_is_no_command_now_and_what_would_lose_a_part_is_not_done() {
     let lexicon = Lexicon::tabletop().unwrap();
     let file = include_str!("data/utterances_not_now.txt");
     let (phenomena, all) = check("not now", &lexicon, file, 1.0);
-    assert!(phenomena >= 3 && all >= 30);
+    assert!(phenomena >= 7 && all >= 90);
+}
+
+#[test]
+fn a_choice_leaves_both_in_question() {
+    let lexicon = Lexicon::tabletop().unwrap();
+    let listener = Listener::new(&lexicon).unwrap();
+    let both = |text: &str, category: Category| {
+        let commands = listener.understand(text).unwrap().commands;
+        let word = commands[0].sentence.words().iter();
+        let word = word
+            .clone()
+            .find(|w| w.category() == Some(category))
+            .unwrap();
+        let sure = |(option, &l): (usize, &f32)| (l >= 1.0).then_some(option);
+        let likelihoods = word.likelihoods().iter().enumerate();
+        likelihoods.filter_map(sure).collect::<Vec<_>>()
+    };
+    let (drawer, bowl) = (0, 3);
+    for text in [
+        "put the can in the bowl or in the drawer",
+        "put the can in the drawer or in the bowl",
+        "put the can in the drawer or the bowl",
+    ] {
+        assert_eq!(both(text, Category::STORAGE), [drawer, bowl], "{text}");
+    }
+    let direction = lexicon.category("direction").unwrap();
+    let (left, right) = (0, 1);
+    assert_eq!(both("push the can right or left", direction), [left, right]);
 }
 
 #[test]

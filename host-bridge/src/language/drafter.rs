@@ -38,6 +38,10 @@ pub fn drafts(
         preposition: None,
         between: Between::Nothing,
         last: None,
+        bare: None,
+        pair: false,
+        said: Vec::new(),
+        fresh: 0,
     };
     let verb = verb_of(pieces, requested, table);
     for (i, piece) in pieces.iter().enumerate() {
@@ -54,6 +58,7 @@ pub fn drafts(
         }
         drafter.take(piece, rest)?;
     }
+    drafter.suits(verb.and_then(|(at, heard)| Some((pieces.get(at)?, heard))))?;
     Ok(drafter.finish())
 }
 
@@ -100,6 +105,14 @@ pub(super) struct Drafter<'a> {
     pub(super) between: Between,
     /// The category of the slot that was filled last.
     pub(super) last: Option<Category>,
+    /// A storage that was named without a preposition, where a thing to act on stands.
+    pub(super) bare: Option<String>,
+    /// Whether the thing between whose like something is was named, and its like comes next.
+    pub(super) pair: bool,
+    /// What was said of which category.
+    pub(super) said: Vec<(Category, String)>,
+    /// How much of that was said before the last draft began.
+    pub(super) fresh: usize,
 }
 
 impl Drafter<'_> {
@@ -116,7 +129,7 @@ impl Drafter<'_> {
         self.preposition = None;
     }
 
-    fn has_signature(&self, category: Category) -> bool {
+    pub(super) fn has_signature(&self, category: Category) -> bool {
         let action = self.list.last().and_then(|d| d.action.as_ref());
         let options = action
             .into_iter()
@@ -172,9 +185,20 @@ impl Drafter<'_> {
                 words: piece.words.clone(),
                 options,
             };
-            self.now().others.retain(|s| s.category != category);
-            self.now().others.push(Slot::new(category, vec![heard]));
+            self.parameter_slot(Slot::new(category, vec![heard]), piece)?;
             self.preposition = None;
+        } else if piece.is(Role::Bound) {
+            let next = rest.iter().find(|p| !p.is(Role::Filler));
+            let next = next.map_or("", |p| p.words.as_str());
+            let word = format!("{} {next}", piece.words).trim_end().to_owned();
+            return Err(LanguageError::NotExact { word });
+        } else if piece.is(Role::Several) && self.is_several(piece, rest) {
+            let next = rest.iter().find(|p| !p.is(Role::Filler));
+            let next = next.map_or("", |p| p.words.as_str());
+            let word = format!("{} {next}", piece.words);
+            return Err(LanguageError::Several { word });
+        } else if let Some(category) = self.lacking(piece) {
+            return Err(self.no_such_option(piece, category));
         } else if piece.is(Role::Storage) || piece.is(Role::Aside) {
             let role = if piece.is(Role::Storage) {
                 Role::Storage
@@ -182,13 +206,14 @@ impl Drafter<'_> {
                 Role::Aside
             };
             self.preposition = Some(role);
+            self.pair = piece.is(Role::Pair);
         } else if piece.is(Role::Pointed) && !determines {
-            self.pointed(Category::OBJECT);
+            self.pointed(Category::OBJECT, piece)?;
         } else if piece.is(Role::Place) && !determines {
-            self.pointed(Category::STORAGE);
+            self.pointed(Category::STORAGE, piece)?;
         } else if piece.is(Role::Again) {
             match self.preposition {
-                Some(Role::Storage) => self.pointed(Category::STORAGE),
+                Some(Role::Storage) => self.pointed(Category::STORAGE, piece)?,
                 Some(_) => {}
                 None => self.now().again = true,
             }
@@ -212,32 +237,6 @@ impl Drafter<'_> {
         })
     }
 
-    fn pointed(&mut self, category: Category) {
-        let storage = category == Category::STORAGE || self.preposition == Some(Role::Storage);
-        if self.preposition != Some(Role::Aside) {
-            let empty = Slot::new(
-                if storage {
-                    Category::STORAGE
-                } else {
-                    Category::OBJECT
-                },
-                Vec::new(),
-            );
-            let draft = self.now();
-            if storage {
-                draft.storage.get_or_insert(empty);
-            } else if draft.target.is_none() {
-                draft.target = Some(empty);
-            } else {
-                draft.storage.get_or_insert(Slot {
-                    category: Category::STORAGE,
-                    ..empty
-                });
-            }
-        }
-        self.preposition = None;
-    }
-
     fn quantity(&mut self, piece: &Piece, kind: usize, value: f32) -> Result<(), LanguageError> {
         let (name, category) = self.table.kinds.get(kind).cloned().unwrap_or_default();
         let Some(category) = category else {
@@ -250,8 +249,12 @@ impl Drafter<'_> {
             quantity: Some(value),
             ..Slot::new(category, Vec::new())
         };
-        self.now().others.retain(|s| s.category != category);
-        self.now().others.push(slot);
+        // "under 5 cm", "to 5 cm" says where rather than how far.
+        if self.preposition.is_some() && category != Category::AMOUNT {
+            let word = piece.words.clone();
+            return Err(LanguageError::NotExact { word });
+        }
+        self.parameter_slot(slot, piece)?;
         self.preposition = None;
         Ok(())
     }

@@ -77,6 +77,46 @@ pub enum LanguageError {
         /// As it was said.
         word: String,
     },
+    /// More than one value for what an action takes once.
+    #[error("\"{word}\" is one {category} too many for one action")]
+    Twice {
+        /// The one too many, as it was said.
+        word: String,
+        /// What it is.
+        category: String,
+    },
+    /// Something that the action takes no such thing of.
+    #[error("\"{action}\" takes no {category}, and \"{word}\" is one")]
+    NotTaken {
+        /// As it was said.
+        word: String,
+        /// What it is.
+        category: String,
+        /// The action, as it was said.
+        action: String,
+    },
+    /// An option that the vocabulary's category does not have.
+    #[error("\"{word}\" is no {category} of this vocabulary")]
+    NoSuchOption {
+        /// As it was said.
+        word: String,
+        /// What it would be.
+        category: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// All things of a name at once.
+    #[error("\"{word}\" may be several things, and a command is for one")]
+    Several {
+        /// As it was said.
+        word: String,
+    },
+    /// A bound, which says how much it is not.
+    #[error("\"{word}\" leaves open how much")]
+    NotExact {
+        /// As it was said.
+        word: String,
+    },
     /// Digits that may be more than one number.
     #[error("\"{word}\" may be more than one number")]
     UnclearNumber {
@@ -150,6 +190,15 @@ impl LanguageError {
             Self::NoUnit { .. } => "say the unit too, as in \"5 cm\" or \"30 degrees\"".into(),
             Self::UnknownUnit { known, .. } => format!("known units: {}", known.join(", ")),
             Self::BadQuantity { .. } => "give a number below a million".into(),
+            Self::Twice { .. } => "say it in a command of its own, one after the other".into(),
+            Self::NotTaken { .. } => {
+                "say the command without it, if that alone is to be done".into()
+            }
+            Self::NoSuchOption { known, .. } => format!("known here: {}", list(known)),
+            Self::Several { .. } => {
+                "name them one by one, as in \"pick the cup and the can\"".into()
+            }
+            Self::NotExact { .. } => "say how much, as in \"5 cm\"".into(),
             Self::UnclearNumber { .. } => {
                 "write thousands without a mark, and a fraction with one: 1000 and 1.5".into()
             }

@@ -5,7 +5,7 @@ use deictic_core::category::Category;
 use super::forms::{inflected, mentions};
 use super::pack::Pack;
 use super::table::{Meaning, Table, words_of};
-use crate::vocabulary::Lexicon;
+use crate::vocabulary::{CategoryEntries, Lexicon};
 
 impl Table {
     pub(super) fn names(&mut self, lexicon: &Lexicon, pack: &Pack) {
@@ -18,6 +18,23 @@ impl Table {
                     .filter(|o| *o.category.as_ref() == category.name && o.name == entry.name)
                     .flat_map(|o| &o.words)
                     .for_each(|words| self.add(words, name));
+            }
+        }
+        for option in &pack.option {
+            let named = |c: &&CategoryEntries| c.name == *option.category.as_ref();
+            let Some(category) = lexicon.categories().iter().find(named) else {
+                continue;
+            };
+            if category.entries.iter().any(|e| e.name == option.name) || category.entries.is_empty()
+            {
+                continue;
+            }
+            for words in &option.words {
+                let has = |m: &Meaning| matches!(m, Meaning::Name(c, _) if *c == category.category);
+                let known = self.find_exact(&words_of(words));
+                if !known.is_some_and(|p| p.means(has)) {
+                    self.add(words, Meaning::Lacking(category.category));
+                }
             }
         }
         for (option, entry) in (0..=u8::MAX).zip(lexicon.entries(Category::ACTION)) {

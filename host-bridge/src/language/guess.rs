@@ -1,12 +1,15 @@
 //! Words that are not known but sound or look like known ones, and how alike the options of a
 //! category are to what was heard.
 
+use std::collections::HashSet;
+
 use deictic_core::category::Category;
 
 use super::likeness::{Ear, Sound};
 use super::pack::Role;
 use super::read::{Piece, What};
 use super::table::{Meaning, Table};
+use super::token::fold;
 
 /// From this likeness on an unknown word is taken for a misheard one: "kup" and "cup" have 0.83,
 /// "drawr" and "drawer" 0.92, "spoon" and "stop" 0.4.
@@ -30,6 +33,8 @@ pub struct Guesser {
     roles: Vec<(Sound, Role)>,
     /// Forms of verbs that are no commands.
     forms: Vec<Sound>,
+    /// Words that are what they are, though they mean nothing alone: "let" of "let go".
+    ordinary: HashSet<String>,
 }
 
 impl Guesser {
@@ -48,18 +53,25 @@ impl Guesser {
         let roles = ROLES.iter().flat_map(role).collect();
         let forms = table.forms_of();
         let forms = forms.map(|words| ear.listen(&words)).collect();
+        let ordinary = table.pack().ordinary.iter().map(|word| fold(word));
+        let ordinary = ordinary.chain(table.words_of_actions()).collect();
         Self {
             ear,
             names,
             roles,
             forms,
+            ordinary,
         }
     }
 
     /// Takes unknown words that are like known ones for these; what was heard stays as it is.
     pub fn mend(&self, pieces: &mut [Piece]) {
-        for piece in pieces.iter_mut().filter(|p| p.what == What::Unknown) {
-            if piece.words.chars().count() < 3 {
+        for at in 0..pieces.len() {
+            let (before, rest) = pieces.split_at_mut(at.saturating_add(1));
+            let Some(piece) = before.last_mut().filter(|p| p.what == What::Unknown) else {
+                continue;
+            };
+            if piece.words.chars().count() < 3 || self.ordinary.contains(&piece.words) {
                 continue;
             }
             let heard = self.ear.listen(&piece.words);
@@ -68,8 +80,12 @@ impl Guesser {
                 .iter()
                 .map(|(s, r)| (self.ear.likeness(&heard, s), *r));
             let long = piece.words.chars().count() > LONG;
+            let leads = rest
+                .iter()
+                .find(|p| !p.is(Role::Filler))
+                .is_some_and(stored);
             let role = role
-                .filter(|_| long)
+                .filter(|(_, role)| long && (*role != Role::Storage || leads))
                 .max_by(|a, b| a.0.total_cmp(&b.0))
                 .unwrap_or((0.0, Role::Filler));
             let names = self
@@ -135,6 +151,12 @@ impl Guesser {
         }
         out
     }
+}
+
+/// Whether a preposition may stand before it.
+fn stored(piece: &Piece) -> bool {
+    let shown = [Role::Pointed, Role::Place, Role::Again];
+    piece.is_thing() || shown.iter().any(|&role| piece.is(role)) || piece.what == What::Unknown
 }
 
 /// What is left of two phrases behind the words that they have in common at their start; `None` when

@@ -26,6 +26,7 @@ mod split;
 mod spoken;
 pub mod stream;
 mod table;
+mod taken;
 pub(crate) mod token;
 mod utter;
 

@@ -83,6 +83,14 @@ pub enum Role {
     Own,
     /// Another time than now.
     Time,
+    /// Of several things at once.
+    Several,
+    /// A bound of a quantity rather than the quantity.
+    Bound,
+    /// Before two things between which something is.
+    Pair,
+    /// An action's word that is another verb with a thing behind it: "open" and "open the box".
+    Alone,
 }
 
 /// The grammar words of a language.
@@ -102,6 +110,9 @@ pub struct Pack {
     /// What has a moving arm stand still, whatever the vocabulary calls its stop.
     #[serde(default)]
     pub halt: Vec<String>,
+    /// Ordinary words that are like words of a vocabulary and none of them: never taken for misheard ones.
+    #[serde(default)]
+    pub ordinary: Vec<String>,
     /// All other grammar words.
     pub role: BTreeMap<Role, Vec<String>>,
     /// Ends of sentences that say nothing.

@@ -74,6 +74,15 @@ impl Piece {
         self.names(Category::ACTION).next().is_some()
     }
 
+    /// The category that it would name an option of, if the vocabulary had that option.
+    #[must_use]
+    pub fn lacks(&self) -> Option<Category> {
+        self.meanings().find_map(|m| match m {
+            Meaning::Lacking(category) => Some(*category),
+            _ => None,
+        })
+    }
+
     /// Whether it is the verb of an action whose particle comes later.
     #[must_use]
     pub fn is_head(&self) -> bool {
@@ -159,8 +168,10 @@ fn word(rest: &[Token], table: &Table) -> Result<Begun, LanguageError> {
                 Meaning::Quantity(kind, value) => Some(What::Quantity(*kind, *value)),
                 _ => None,
             });
-            let plain =
-                |m: &Meaning| matches!(m, Meaning::Name(..) | Meaning::Role(_) | Meaning::Form(_));
+            let plain = |m: &Meaning| {
+                use Meaning::{Form, Lacking, Name, Role};
+                matches!(m, Name(..) | Role(_) | Form(_) | Lacking(_))
+            };
             let plain: Vec<_> = meanings.iter().copied().filter(plain).collect();
             let number = meanings.iter().find_map(|m| match m {
                 Meaning::Number(value) => Some(What::Number(*value)),

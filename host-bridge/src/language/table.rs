@@ -19,6 +19,8 @@ pub enum Meaning {
     Form(u8),
     /// The verb of an action whose particle comes later, as in "let the cup go".
     Head,
+    /// An option that the language knows and the vocabulary's category does not have.
+    Lacking(Category),
     /// A grammar word.
     Role(Role),
     /// A unit: the place of its category's name in [`Table::kinds`], and how much one is.
@@ -43,6 +45,10 @@ pub(super) struct Phrase {
 }
 
 impl Phrase {
+    pub(super) fn means(&self, wanted: impl Fn(&Meaning) -> bool) -> bool {
+        self.meanings.iter().any(wanted)
+    }
+
     pub(super) fn is_form(&self) -> bool {
         self.meanings.iter().any(|m| matches!(m, Meaning::Form(_)))
     }
@@ -226,6 +232,13 @@ impl Table {
                 _ => None,
             })
         })
+    }
+
+    /// The words of the phrases that name actions.
+    pub fn words_of_actions(&self) -> impl Iterator<Item = String> + '_ {
+        let action = |m: &Meaning| matches!(m, Meaning::Name(Category::ACTION, _));
+        let phrases = self.phrases.iter().filter(move |p| p.means(action));
+        phrases.flat_map(|p| p.tokens.iter().cloned())
     }
 
     /// Every form of an action's verb that is no command.
