@@ -91,6 +91,12 @@ impl Drafter<'_> {
         }
         let takes_things =
             self.has_signature(Category::OBJECT) || self.has_signature(Category::STORAGE);
+        // By its own name an action is none of another's: "release the can to the bowl" lets go of it.
+        let own = |&o: &u8| {
+            let name = self.lexicon.option_name(Category::ACTION, o);
+            name.replace('-', " ") == heard.words
+        };
+        let own = heard.options.iter().any(own);
         let not_taken = |category: Category, word: &str| {
             Err(LanguageError::NotTaken {
                 word: word.to_owned(),
@@ -103,7 +109,7 @@ impl Drafter<'_> {
                 Category::AMOUNT => false,
                 // "Drop the cup" lets go of what is held, "drop it in the bowl" would drop it here.
                 Category::OBJECT => piece.is(Role::Alone) && !takes_things,
-                Category::STORAGE => !takes_things,
+                Category::STORAGE => !own && !takes_things,
                 other => !self.has_signature(other),
             };
             if idle {
