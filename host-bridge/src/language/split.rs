@@ -75,6 +75,13 @@ impl Splitter<'_> {
         }
     }
 
+    /// Whether what comes before or after was said whole: "after picking the cup", and then the command.
+    fn is_told_first(&self) -> bool {
+        matches!(self.link, Link::Earlier(true) | Link::Later(true))
+            && self.has_thing()
+            && self.pieces.iter().any(|p| p.forms().next().is_some())
+    }
+
     fn has_thing(&self) -> bool {
         self.pieces
             .iter()
@@ -147,7 +154,8 @@ pub(super) fn split(pieces: Vec<Piece>, table: &Table) -> Vec<Clause> {
             let again = !s.has_thing()
                 && verb
                     .is_some_and(|v| v.names(Category::ACTION).eq(piece.names(Category::ACTION)));
-            if is_verb(piece) && verb.is_some() && !again && !s.completes(piece) {
+            let begun = verb.is_some() || s.is_told_first();
+            if is_verb(piece) && begun && !again && !s.completes(piece) {
                 s.cut(Link::Comma);
             }
             s.pieces.push(piece.clone());
