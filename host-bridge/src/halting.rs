@@ -21,11 +21,10 @@ pub struct Halting {
 }
 
 impl Halting {
-    /// The words of a vocabulary's language; none of a language that lists none.
+    /// The words of a language; none of one that lists none.
     #[must_use]
-    pub fn of(lexicon: &Lexicon) -> Self {
-        let halt = Pack::of(lexicon).map_or_else(|_| Vec::new(), |pack| pack.halt);
-        let phrases = halt.iter().map(|phrase| words(phrase));
+    pub fn of(pack: &Pack) -> Self {
+        let phrases = pack.halt.iter().map(|phrase| words(phrase));
         Self {
             phrases: phrases.filter(|phrase| !phrase.is_empty()).collect(),
         }
@@ -82,7 +81,7 @@ mod tests {
 
     #[test]
     fn the_language_has_words_of_its_own() {
-        let halting = Halting::of(&Lexicon::tabletop().unwrap());
+        let halting = Halting::of(&Pack::built_in("en").unwrap());
         for text in ["Stop!", "nooo", "Whoooa", "oh, watch out", "that's wrong"] {
             assert!(halting.is_in(text), "{text}");
         }

@@ -15,10 +15,14 @@ use deictic_core::category::Category;
 use tempfile::TempDir;
 use voice::{installed, sox, speak};
 
+fn open(kind: Kind, lexicon: &Lexicon) -> Recogniser {
+    let pack = Pack::built_in("en").unwrap();
+    Recogniser::open(kind, lexicon, &pack, Path::new(MODEL)).unwrap()
+}
+
 fn hears_what_is_said(kind: Kind) {
     let lexicon = Lexicon::tabletop().unwrap();
-    let pack = Pack::built_in("en").unwrap();
-    let mut recogniser = Recogniser::open(kind, &lexicon, &pack, Path::new(MODEL)).unwrap();
+    let mut recogniser = open(kind, &lexicon);
     let listener = Listener::new(&lexicon).unwrap();
     let folder = TempDir::new().unwrap();
     let mut hear = |text: &str, expected| {
@@ -78,10 +82,9 @@ fn moonshine_hears_what_is_said_and_takes_no_question_for_a_command() {
         return;
     }
     hears_what_is_said(Kind::Moonshine);
-    let (lexicon, pack) = (Lexicon::tabletop().unwrap(), Pack::built_in("en").unwrap());
+    let lexicon = Lexicon::tabletop().unwrap();
     let listener = Listener::new(&lexicon).unwrap();
-    let mut recogniser =
-        Recogniser::open(Kind::Moonshine, &lexicon, &pack, Path::new(MODEL)).unwrap();
+    let mut recogniser = open(Kind::Moonshine, &lexicon);
     let folder = TempDir::new().unwrap();
     for text in [
         "should I pick the cup",
@@ -112,9 +115,8 @@ fn what_is_no_speech_is_no_command() {
         return;
     }
     let folder = TempDir::new().unwrap();
-    let pack = Pack::built_in("en").unwrap();
     let lexicon = Lexicon::tabletop().unwrap();
-    let mut recogniser = Recogniser::open(Kind::Best, &lexicon, &pack, Path::new(MODEL)).unwrap();
+    let mut recogniser = open(Kind::Best, &lexicon);
     let listener = Listener::new(&lexicon).unwrap();
     for (name, sound) in [
         ("hiss", "synth 2 whitenoise gain -12"),
@@ -150,9 +152,8 @@ fn distances_and_directions_are_heard() {
         return;
     }
     let folder = TempDir::new().unwrap();
-    let pack = Pack::built_in("en").unwrap();
     let lexicon = Lexicon::tabletop().unwrap();
-    let mut recogniser = Recogniser::open(Kind::Best, &lexicon, &pack, Path::new(MODEL)).unwrap();
+    let mut recogniser = open(Kind::Best, &lexicon);
     let listener = Listener::new(&lexicon).unwrap();
     let distance = lexicon.category("distance").unwrap();
     for (said, far) in [

@@ -137,6 +137,12 @@ impl<'a> Listener<'a> {
         }
     }
 
+    /// The grammar words that it goes by.
+    #[must_use]
+    pub fn pack(&self) -> &Pack {
+        self.table.pack()
+    }
+
     /// Understands a text.
     ///
     /// # Errors
@@ -192,7 +198,7 @@ impl<'a> Listener<'a> {
 
     /// Takes verbs that only their accents tell from a command for the forms that they are.
     fn told(&self, pieces: &mut [Piece], text: &str) {
-        let endings = &self.table.pack().endings;
+        let endings = &self.pack().endings;
         let written = |text: &str| text.nfc().flat_map(char::to_lowercase).collect::<String>();
         for piece in pieces.iter_mut().filter(|piece| piece.is_action()) {
             let said = written(text.get(piece.span.clone()).unwrap_or_default());

@@ -22,10 +22,9 @@ impl Drafter<'_> {
         let choice = self.between == Between::Or;
         let others = &mut self.now().others;
         if let Some(before) = others.iter_mut().find(|s| again && s.category == category) {
-            let options = |s: &Slot| s.heard.iter().flat_map(|h| h.options.clone()).collect();
-            let same = (options(before), before.quantity);
-            let same: (Vec<u8>, _) = same;
-            if same == (options(&slot), slot.quantity) {
+            let options =
+                |s: &Slot| -> Vec<u8> { s.heard.iter().flat_map(|h| h.options.clone()).collect() };
+            if options(before) == options(&slot) && before.quantity == slot.quantity {
                 return Ok(());
             }
             if !choice || slot.quantity.is_some() || before.quantity.is_some() {

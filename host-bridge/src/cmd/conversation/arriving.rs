@@ -65,7 +65,7 @@ impl Conversation<'_> {
         }
         let lexicon = session.lexicon();
         let understood = self.listener.understand(said);
-        let halting = Halting::of(lexicon);
+        let halting = Halting::of(self.listener.pack());
         let halts = match &understood {
             Ok(utterance) if is_likely_stop(utterance, lexicon) => {
                 self.drop_waiting();
@@ -209,7 +209,7 @@ impl Conversation<'_> {
     fn uttered(&mut self, session: &mut Session<'_>, spoken: Spoken, ordered: bool) {
         let (listener, lexicon) = (self.listener, session.lexicon());
         let halting = match self.is_going_on(session) {
-            true => Halting::of(lexicon),
+            true => Halting::of(self.listener.pack()),
             false => Halting::default(),
         };
         let refuses = |text: &str| {
